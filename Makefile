@@ -1,0 +1,79 @@
+# A thin front to CMakePresets.json: `make` lists what there is. Every target first sees to the packages.
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
+
+.DEFAULT_GOAL := help
+.PHONY: help setup build demo test soak install format tidy clean FORCE
+
+help: ## this list
+	@echo "gnomon: exact hard shadows. Targets:"
+	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 18
+
+setup: ## install the packages that are missing (Debian 12)
+	@scripts/setup
+
+# The script touches its stamp only when it had to look, so that nothing is configured again without a reason.
+build/.setup: FORCE
+	@scripts/setup
+
+# Ninja configures again by itself when a CMakeLists.txt changes; the presets and the packages are not its business.
+build/build.ninja: CMakePresets.json build/.setup
+	@cmake --preset release
+	@touch $@
+
+build/%/build.ninja: CMakePresets.json build/.setup
+	@cmake --preset $*
+	@touch $@
+
+build: build/build.ninja ## libraries, programs and examples; programs lie in build/bin
+	@cmake --build build --target modules/all backends/all apps/all examples/all
+
+demo: build ## draw the demonstration pictures
+	@scripts/demo
+
+# Both suites run whatever becomes of the first, and the closing line is the main suite's.
+test: build/build.ninja build/asan/build.ninja ## build and run all tests, the CPU modules under ASan and UBSan too
+	@cmake --build --preset release
+	@cmake --build --preset asan
+	@status=0; \
+	ctest --preset asan -j$(JOBS) || status=$$?; \
+	ctest --preset release -j$(JOBS) || status=$$?; \
+	[ $$status -eq 0 ] || echo "make test: a test failed, see above"; \
+	exit $$status
+
+soak: build/build.ninja build/asan-full/build.ninja build/tsan/build.ninja ## the long tests, and every sanitizer
+	@scripts/setup --soak
+	@cmake --build --preset release
+	@ctest --preset soak
+	@cmake --build --preset asan-full
+	@ctest --preset asan-full -j$(JOBS)
+	@cmake --build --preset tsan
+	@ctest --preset tsan -j$(JOBS)
+
+bench: build ## run the benchmarks; their results also go to build/bench.json
+	@cmake -S . -B build -DGNOMON_BENCH=ON >/dev/null
+	@cmake --build build --target gnomon-bench
+	@build/bin/gnomon-bench --benchmark_out=build/bench.json --benchmark_out_format=json
+
+docs: ## the reference of all public headers and the guides, in build/docs/html
+	@scripts/setup --docs
+	@doxygen docs/Doxyfile
+	@echo "reference: build/docs/html/index.html"
+
+install: build ## install under PREFIX (DESTDIR is respected)
+	@cmake --install build --prefix $(PREFIX)
+
+SOURCES = $(shell git ls-files '*.cpp' '*.hpp')
+
+format: ## run clang-format over every source
+	@scripts/setup --tools
+	@clang-format -i $(SOURCES)
+
+tidy: build/build.ninja ## run clang-tidy over the libraries and programs
+	@scripts/setup --tools
+	@cmake --build build --target modules/all backends/all apps/all examples/all
+	@run-clang-tidy -quiet -p build -j $(JOBS) "$(CURDIR)/(modules|backends|apps|examples)/.*"
+
+clean: ## remove everything that was built
+	@rm -rf build

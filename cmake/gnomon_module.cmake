@@ -1,0 +1,100 @@
+# How every library target of gnomon is made. Folder = target = namespace.
+
+set(GNOMON_INCLUDE_ROOT ${PROJECT_BINARY_DIR}/include)
+set(GNOMON_LIBRARIES "" CACHE INTERNAL "every library target, for the install rules")
+set(GNOMON_SHADER_ROOT ${PROJECT_BINARY_DIR}/generated)
+
+if(PROJECT_IS_TOP_LEVEL)
+  if(NOT CMAKE_RUNTIME_OUTPUT_DIRECTORY)
+    set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  endif()
+  find_program(GNOMON_CCACHE ccache)
+  if(GNOMON_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${GNOMON_CCACHE})
+  endif()
+endif()
+
+option(GNOMON_CHECKED "A caller's bug aborts with a sentence in optimised builds too (gnomon/core/expects.hpp)" OFF)
+
+add_library(gnomon_compile_options INTERFACE)
+target_compile_features(gnomon_compile_options INTERFACE cxx_std_20)
+# -ffp-contract=off: the compiler must not fuse a*b+c, or builds would differ in their last bits.
+target_compile_options(gnomon_compile_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -ffp-contract=off
+  $<$<BOOL:${GNOMON_WERROR}>:-Werror>
+)
+if(GNOMON_CHECKED)
+  target_compile_definitions(gnomon_compile_options INTERFACE GNOMON_CHECKED)
+endif()
+# GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(gnomon_compile_options INTERFACE -Wno-restrict)
+endif()
+if(GNOMON_SANITIZE)
+  target_compile_options(gnomon_compile_options INTERFACE
+    -fsanitize=${GNOMON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+    # GCC sees uninitialised values in <regex> and others where the sanitizers have added branches.
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  target_link_options(gnomon_compile_options INTERFACE -fsanitize=${GNOMON_SANITIZE})
+endif()
+
+# gnomon_add_library(<name> SOURCES ... [PUBLIC deps...] [PRIVATE deps...])
+# makes target gnomon_<name>, alias gnomon::<name>, from the folder that calls it. Its public headers are the
+# folder's *.hpp files, reached as <gnomon/<name>/file.hpp>; what lies in internal/ is not installed.
+function(gnomon_add_library name)
+  cmake_parse_arguments(ARG "" "FOLDER" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  if(NOT ARG_FOLDER)
+    set(ARG_FOLDER ${name})
+  endif()
+  file(MAKE_DIRECTORY ${GNOMON_INCLUDE_ROOT}/gnomon)
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${GNOMON_INCLUDE_ROOT}/gnomon/${ARG_FOLDER} SYMBOLIC)
+
+  if(ARG_SOURCES)
+    add_library(gnomon_${name} ${ARG_SOURCES})
+    target_include_directories(gnomon_${name} PUBLIC
+      $<BUILD_INTERFACE:${GNOMON_INCLUDE_ROOT}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_compile_features(gnomon_${name} PUBLIC cxx_std_20)
+    target_link_libraries(gnomon_${name} PRIVATE $<BUILD_INTERFACE:gnomon_compile_options>)
+    target_link_libraries(gnomon_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+    set_target_properties(gnomon_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  else()
+    add_library(gnomon_${name} INTERFACE)
+    target_include_directories(gnomon_${name} INTERFACE
+      $<BUILD_INTERFACE:${GNOMON_INCLUDE_ROOT}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_compile_features(gnomon_${name} INTERFACE cxx_std_20)
+    target_link_libraries(gnomon_${name} INTERFACE ${ARG_PUBLIC})
+  endif()
+  add_library(gnomon::${name} ALIAS gnomon_${name})
+  set_target_properties(gnomon_${name} PROPERTIES EXPORT_NAME ${name}
+    GNOMON_FOLDER ${ARG_FOLDER} GNOMON_HEADERS ${CMAKE_CURRENT_SOURCE_DIR})
+  set(GNOMON_LIBRARIES ${GNOMON_LIBRARIES} gnomon_${name} CACHE INTERNAL "")
+endfunction()
+
+# gnomon_add_shaders(<target> <name> <file>...)
+# turns GLSL (Vulkan dialect) in the caller's shaders/ into one header <gnomon_shaders/name.hpp> that holds, per file,
+# the SPIR-V for Vulkan and the desktop GLSL for GL that SPIRV-Cross makes from that very SPIR-V, as
+# gnomon::<name>::shaders::<file with dots as underscores>. Files that end in .glsl are only included by others.
+function(gnomon_add_shaders target name)
+  set(header ${GNOMON_SHADER_ROOT}/gnomon_shaders/${name}.hpp)
+  set(position ${PROJECT_SOURCE_DIR}/modules/shadow_pass/shaders)
+  set(sources)
+  set(includes)
+  foreach(file IN LISTS ARGN)
+    if(file MATCHES "\\.glsl$")
+      list(APPEND includes ${CMAKE_CURRENT_SOURCE_DIR}/shaders/${file})
+    else()
+      list(APPEND sources ${CMAKE_CURRENT_SOURCE_DIR}/shaders/${file})
+    endif()
+  endforeach()
+  string(REPLACE ";" "," joined "${sources}")
+  add_custom_command(OUTPUT ${header}
+    COMMAND ${CMAKE_COMMAND} -DHEADER=${header} -DSHADERS=${joined} -DNAME=${name}
+      -DINCLUDES=-I${position},-I${CMAKE_CURRENT_SOURCE_DIR}/shaders
+      -DGLSLANG=${GLSLANG_VALIDATOR} -DSPIRV_CROSS=${SPIRV_CROSS}
+      -P ${PROJECT_SOURCE_DIR}/cmake/compile_shaders.cmake
+    DEPENDS ${sources} ${includes} ${position}/position.glsl ${PROJECT_SOURCE_DIR}/cmake/compile_shaders.cmake
+    COMMENT "Compiling the shaders of ${name}" VERBATIM)
+  add_custom_target(${target}_shaders DEPENDS ${header})
+  add_dependencies(${target} ${target}_shaders)
+  target_include_directories(${target} PRIVATE ${GNOMON_SHADER_ROOT})
+endfunction()
