@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+//
+// Facing: one small integer a face, decided once; silhouette, caps and queries all read the stored
+// value. That is what makes leaks impossible: a volume built from any weights is closed
+// (docs/conventions.md, "A silhouette is a boundary").
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include <gnomon/shadows/light.hpp>
+#include <gnomon/shadows/shadow_mesh.hpp>
+
+namespace gnomon::shadows {
+
+/// How often each stage of the facing test was needed.
+struct FacingStats {
+    std::uint64_t faces = 0;
+    std::uint64_t double_tests = 0;  ///< the single-precision filter could not decide
+    std::uint64_t exact_tests = 0;   ///< nor could double precision
+};
+
+struct Facing {
+    /// A face's weight: +1 it casts and faces the light, -1 it casts and is turned away, 0 it casts
+    /// nothing.
+    ///
+    /// A closed component with the light outside its bounds casts one-sided: the faces towards the
+    /// light where its signed volume is positive, the averted ones where it is inside out.
+    /// Everything else casts two-sided: every face. A face whose plane contains the light weighs 0
+    /// either way.
+    std::vector<std::int8_t> weights;
+    /// The light may move this far in caster space (for a directional light: its unit vector) and
+    /// every weight is provably the same. Rounding is allowed for; >= 0.
+    double margin = 0.0;
+    FacingStats stats;
+};
+
+/// Every weight is exact for `light` as it is. Cost: linear, a few ns a face.
+void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out);
+
+/// For a caster whose pose is singular (a zero scale) and therefore has no light of its own:
+/// decides in the space that `parent_from_local` leads to, two-sided, in double precision. margin
+/// is 0. `light_parent` is unrounded.
+void classify_faces_flattened(const ShadowMesh& mesh, const glm::dmat4& parent_from_local,
+                              const glm::dvec4& light_parent, Facing& out);
+
+}  // namespace gnomon::shadows

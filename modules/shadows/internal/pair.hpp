@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// What the ShadowSystem remembers of one pair of caster and light, and how it brings it up to date.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/shadow_system.hpp>
+#include <gnomon/shadows/silhouette.hpp>
+#include <gnomon/shadows/volume.hpp>
+
+#include "local_light.hpp"
+
+namespace gnomon::shadows::internal {
+
+struct CasterState {
+    Caster caster;
+    Pose pose;
+    std::uint64_t pose_revision = 0;  ///< changes whenever a bit of the pose does
+    std::uint64_t frame = 0;          ///< last submitted in
+};
+
+struct LightState {
+    Light light;
+    std::uint64_t revision = 0;
+    std::uint64_t frame = 0;
+};
+
+struct PairState {
+    // What the volume was made from.
+    std::shared_ptr<const ShadowMesh> mesh;
+    std::shared_ptr<const Volume> volume;
+    std::uint64_t volume_revision = 0;
+    FarVertices far_vertices = FarVertices::AtInfinity;
+    bool flattened = false;
+    LightLocal detected;  ///< the light that the facing was decided for
+    double margin = 0.0;  ///< how far it may move from there
+    double nearest_face =
+        -1;  ///< metres from the light to the nearest casting face, once asked for
+    // What the pair looked like last.
+    LightLocal current;
+    glm::dvec4 current_exact{0.0};  ///< before rounding
+    std::uint64_t pose_revision = 0;
+    std::uint64_t light_revision = 0;
+    std::uint64_t frame = 0;
+};
+
+/// Buffers that detection reuses from pair to pair.
+struct Scratch {
+    Facing facing;
+    std::vector<SilhouetteEdge> silhouette;
+};
+
+/// Brings the pair up to date and says why. Adds to the stats.
+Reason update_pair(PairState& pair, const CasterState& caster, const LightState& light,
+                   FarVertices far_vertices, const SilhouetteStrategy& strategy, Scratch& scratch,
+                   FrameStats& stats);
+
+/// Distance from a point to the nearest of the faces that the volume's caps are made of, in world
+/// metres.
+double nearest_face(const Volume& volume, const ShadowMesh& mesh,
+                    const glm::dmat4& world_from_local, const glm::dvec3& point_world);
+
+}  // namespace gnomon::shadows::internal

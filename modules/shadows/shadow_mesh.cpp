@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/shadows/shadow_mesh.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <unordered_map>
+
+#include "internal/face_plane.hpp"
+
+namespace gnomon::shadows {
+
+namespace {
+
+// 2 * vertex + 1 must fit an index, with room to spare; and so must the number of a volume's
+// indices, of which a face that casts needs 24 at most: two caps and three sides.
+constexpr std::size_t max_vertices = std::size_t{1} << 30U;
+constexpr std::size_t max_triangles = std::size_t{1} << 27U;
+
+glm::vec3 position_at(const MeshView& view, std::size_t vertex) {
+    glm::vec3 p;
+    std::memcpy(&p, view.positions + vertex * view.stride, sizeof p);
+    return p + 0.0F;  // -0 becomes +0, so that equal positions have equal bits
+}
+
+struct PositionHash {
+    std::size_t operator()(const glm::vec3& p) const {
+        const auto x = std::bit_cast<std::array<std::uint32_t, 3>>(p);
+        std::uint64_t h = 0x9E3779B97F4A7C15ULL;
+        for (const std::uint32_t word : x) h = (h ^ word) * 0xFF51AFD7ED558CCDULL, h ^= h >> 29U;
+        return static_cast<std::size_t>(h);
+    }
+};
+
+// Union-find over faces, for the components.
+class Groups {
+public:
+    explicit Groups(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+    std::uint32_t find(std::uint32_t x) {
+        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+        return x;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        // The smaller index leads, so that components are numbered in the order of their first
+        // face.
+        if (a < b) parent_[b] = a;
+        if (b < a) parent_[a] = b;
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+struct HalfEdge {
+    std::uint32_t low, high, face;
+    std::int32_t sign;  // 0: of a face with two equal corners, which uses no edge but lies at one
+};
+
+std::vector<HalfEdge> sorted_half_edges(std::span<const std::array<std::uint32_t, 3>> faces) {
+    std::vector<HalfEdge> result;
+    result.reserve(faces.size() * 3);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const auto& [a, b, c] = faces[f];
+        const bool collapsed = a == b || b == c || c == a;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t from = faces[f][i];
+            const std::uint32_t to = faces[f][(i + 1) % 3];
+            if (from == to) continue;
+            result.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(f),
+                              collapsed ? 0 : (from < to ? 1 : -1)});
+        }
+    }
+    std::sort(result.begin(), result.end(), [](const HalfEdge& a, const HalfEdge& b) {
+        if (a.low != b.low) return a.low < b.low;
+        if (a.high != b.high) return a.high < b.high;
+        return a.face < b.face;
+    });
+    return result;
+}
+
+Status check(const MeshView& view) {
+    const auto bad = [](std::string sentence) {
+        return fail(ErrorCode::InvalidInput, std::move(sentence));
+    };
+    if (view.indices.size() % 3 != 0) {
+        return bad("The mesh has " + std::to_string(view.indices.size()) +
+                   " indices, which is not a multiple of 3.");
+    }
+    if (view.indices.size() / 3 > max_triangles || view.vertex_count > max_vertices) {
+        return bad("The mesh has " + std::to_string(view.vertex_count) + " vertices and " +
+                   std::to_string(view.indices.size() / 3) + " triangles; the limits are " +
+                   std::to_string(max_vertices) + " and " + std::to_string(max_triangles) + ".");
+    }
+    if (view.vertex_count > 0 && view.positions == nullptr) {
+        return bad("The mesh has " + std::to_string(view.vertex_count) +
+                   " vertices but no positions.");
+    }
+    for (std::size_t i = 0; i < view.indices.size(); ++i) {
+        if (view.indices[i] >= view.vertex_count) {
+            return bad("Index " + std::to_string(i) + " of the mesh is " +
+                       std::to_string(view.indices[i]) + ", but it has " +
+                       std::to_string(view.vertex_count) + " vertices.");
+        }
+    }
+    for (std::size_t v = 0; v < view.vertex_count; ++v) {
+        const glm::vec3 p = position_at(view, v);
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            return bad("Position " + std::to_string(v) + " of the mesh is not finite.");
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view) {
+    if (const Status ok = check(view); !ok) return forward_error(ok);
+
+    static std::atomic<std::uint64_t> next_id{1};
+    std::shared_ptr<ShadowMesh> mesh(new ShadowMesh);
+    mesh->id_ = next_id.fetch_add(1);
+    MeshReport& report = mesh->report_;
+    report.triangles = view.indices.size() / 3;
+    report.vertices = view.vertex_count;
+
+    // Weld: only positions that triangles use, numbered by first use.
+    {
+        std::unordered_map<glm::vec3, std::uint32_t, PositionHash> welded;
+        welded.reserve(view.vertex_count);
+        std::vector<std::uint32_t> welded_of(view.vertex_count,
+                                             std::numeric_limits<std::uint32_t>::max());
+        mesh->faces_.resize(view.indices.size() / 3);
+        for (std::size_t i = 0; i < view.indices.size(); ++i) {
+            const std::uint32_t vertex = view.indices[i];
+            std::uint32_t& target = welded_of[vertex];
+            if (target == std::numeric_limits<std::uint32_t>::max()) {
+                const glm::vec3 p = position_at(view, vertex);
+                const auto [found, inserted] =
+                    welded.try_emplace(p, static_cast<std::uint32_t>(mesh->positions_.size()));
+                if (inserted) mesh->positions_.push_back(p);
+                target = found->second;
+            }
+            mesh->faces_[i / 3][i % 3] = target;
+        }
+    }
+    report.welded_vertices = mesh->positions_.size();
+
+    // Edges with their signed uses; components.
+    const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh->faces_);
+    Groups groups(mesh->faces_.size());
+    std::vector<std::uint32_t> unbalanced_faces;  // one face of each unbalanced edge
+    mesh->uses_.reserve(half_edges.size());
+    for (std::size_t begin = 0; begin < half_edges.size();) {
+        const HalfEdge& edge = half_edges[begin];
+        const auto first_use = static_cast<std::uint32_t>(mesh->uses_.size());
+        std::int32_t sum = 0;
+        for (; begin < half_edges.size() && half_edges[begin].low == edge.low &&
+               half_edges[begin].high == edge.high;
+             ++begin) {
+            const HalfEdge& use = half_edges[begin];
+            groups.join(edge.face, use.face);
+            if (use.sign == 0) continue;
+            mesh->uses_.push_back({use.face, use.sign});
+            sum += use.sign;
+        }
+        const auto count = static_cast<std::uint32_t>(mesh->uses_.size()) - first_use;
+        if (count == 0) continue;
+        mesh->edges_.push_back({edge.low, edge.high, first_use, count});
+        if (count == 1) ++report.boundary_edges;
+        if (count > 2) ++report.non_manifold_edges;
+        if (count == 2 && sum != 0) ++report.inconsistent_edges;
+        if (sum != 0) {
+            ++report.unbalanced_edges;
+            unbalanced_faces.push_back(edge.face);
+        }
+    }
+    report.edges = mesh->edges_.size();
+
+    std::vector<std::uint32_t> component_of_root(mesh->faces_.size());
+    std::vector<double> volumes;
+    std::vector<glm::dvec3> references;
+    mesh->face_components_.resize(mesh->faces_.size());
+    mesh->planes_.resize(mesh->faces_.size());
+    for (std::uint32_t f = 0; f < mesh->faces_.size(); ++f) {
+        const auto& face = mesh->faces_[f];
+        const glm::vec3 a = mesh->positions_[face[0]];
+        const glm::vec3 b = mesh->positions_[face[1]];
+        const glm::vec3 c = mesh->positions_[face[2]];
+        const std::uint32_t root = groups.find(f);
+        if (root == f) {
+            component_of_root[f] = static_cast<std::uint32_t>(mesh->components_.size());
+            mesh->components_.push_back({true, false, a, a, 0});
+            volumes.push_back(0.0);
+            references.emplace_back(a);
+        }
+        const std::uint32_t index = component_of_root[root];
+        mesh->face_components_[f] = index;
+        Component& component = mesh->components_[index];
+        ++component.faces;
+        component.bounds_min = glm::min(component.bounds_min, glm::min(a, glm::min(b, c)));
+        component.bounds_max = glm::max(component.bounds_max, glm::max(a, glm::max(b, c)));
+        const glm::dvec3 r = references[index];
+        volumes[index] +=
+            glm::dot(glm::dvec3(a) - r, glm::cross(glm::dvec3(b) - r, glm::dvec3(c) - r));
+        mesh->planes_[f] = internal::make_face_plane(a, b, c);
+        if (internal::is_degenerate(mesh->planes_[f])) ++report.degenerate_faces;
+    }
+    for (const std::uint32_t face : unbalanced_faces) {
+        mesh->components_[mesh->face_components_[face]].closed = false;
+    }
+    for (std::size_t i = 0; i < mesh->components_.size(); ++i) {
+        Component& component = mesh->components_[i];
+        component.inside_out = component.closed && volumes[i] < 0.0;
+        if (component.closed) ++report.closed_components;
+        if (i == 0) {
+            mesh->bounds_min_ = component.bounds_min;
+            mesh->bounds_max_ = component.bounds_max;
+        }
+        mesh->bounds_min_ = glm::min(mesh->bounds_min_, component.bounds_min);
+        mesh->bounds_max_ = glm::max(mesh->bounds_max_, component.bounds_max);
+    }
+    report.components = mesh->components_.size();
+    return mesh;
+}
+
+}  // namespace gnomon::shadows

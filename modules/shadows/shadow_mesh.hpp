@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+//
+// ShadowMesh: what shadows need to know of a triangle mesh, worked out once. Vertices welded by
+// exact position, unique edges with all their signed face uses, components, face planes with error
+// bounds, and a report. Any triangles do: open, non-manifold, inconsistently wound, degenerate. It
+// is immutable and may be shared between threads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include <gnomon/core/result.hpp>
+
+namespace gnomon::shadows {
+
+/// Triangles as the caller has them; read during build only.
+struct MeshView {
+    const std::byte* positions = nullptr;    ///< three floats each, metres, in the caster's space
+    std::size_t stride = sizeof(glm::vec3);  ///< bytes from one position to the next
+    std::size_t vertex_count = 0;
+    std::span<const std::uint32_t> indices =
+        {};  ///< three a triangle, counter-clockwise from outside
+};
+
+/// What is found on the way. None of it is an error: the shadow is right whatever it says
+/// (docs/conventions.md).
+struct MeshReport {
+    std::uint64_t triangles = 0;
+    std::uint64_t vertices = 0;         ///< as given
+    std::uint64_t welded_vertices = 0;  ///< distinct positions that triangles use
+    std::uint64_t edges = 0;
+    std::uint64_t components = 0;
+    std::uint64_t closed_components = 0;
+    std::uint64_t boundary_edges = 0;      ///< one face
+    std::uint64_t non_manifold_edges = 0;  ///< three faces or more
+    std::uint64_t inconsistent_edges = 0;  ///< two faces that run along it the same way
+    std::uint64_t unbalanced_edges = 0;    ///< the signed sum of face uses is not zero
+    std::uint64_t degenerate_faces = 0;    ///< zero area, exactly: they cast nothing
+
+    [[nodiscard]] bool closed() const { return components > 0 && closed_components == components; }
+};
+
+/// One edge between welded vertices low < high; its face uses are uses[first_use .. first_use +
+/// use_count).
+struct Edge {
+    std::uint32_t low = 0;
+    std::uint32_t high = 0;
+    std::uint32_t first_use = 0;
+    std::uint32_t use_count = 0;
+};
+
+/// One face that has an edge: +1 where it runs low -> high, -1 where it runs high -> low.
+struct FaceUse {
+    std::uint32_t face = 0;
+    std::int32_t sign = 0;
+};
+
+/// Faces connected through edges.
+struct Component {
+    bool closed = false;      ///< every edge's signed sum of face uses is zero
+    bool inside_out = false;  ///< closed with a negative signed volume
+    glm::vec3 bounds_min{0.0F};
+    glm::vec3 bounds_max{0.0F};
+    std::uint64_t faces = 0;
+};
+
+/// The plane through a face, for the filtered facing test: normal . x + offset, with a bound on its
+/// error (facing.hpp). Not normalised: the normal is twice the area long.
+struct FacePlane {
+    glm::vec3 normal{0.0F};
+    float offset = 0.0F;
+    float normal_error =
+        0.0F;  ///< bound on the error of each normal component's use, per unit of light coordinate
+    float offset_error = 0.0F;  ///< bound on the error of the offset
+};
+
+class ShadowMesh {
+public:
+    /// Fails with ErrorCode::InvalidInput: a position that is not finite, an index out of range, an
+    /// index count that is not a multiple of three, more than 2^30 vertices or 2^27 triangles.
+    /// Cost: O(n log n), about 150 bytes a triangle.
+    [[nodiscard]] static Result<std::shared_ptr<const ShadowMesh>> build(const MeshView& view);
+
+    /// Unique among all meshes of the process, never zero.
+    [[nodiscard]] std::uint64_t id() const { return id_; }
+    [[nodiscard]] const MeshReport& report() const { return report_; }
+
+    [[nodiscard]] std::span<const glm::vec3> positions() const { return positions_; }
+    /// Index triples into positions(), in the order of the input, corner order included.
+    [[nodiscard]] std::span<const std::array<std::uint32_t, 3>> faces() const { return faces_; }
+    [[nodiscard]] std::span<const Edge> edges() const { return edges_; }
+    [[nodiscard]] std::span<const FaceUse> uses() const { return uses_; }
+    [[nodiscard]] std::span<const Component> components() const { return components_; }
+    [[nodiscard]] std::span<const std::uint32_t> face_components() const {
+        return face_components_;
+    }
+    [[nodiscard]] std::span<const FacePlane> planes() const { return planes_; }
+    [[nodiscard]] glm::vec3 bounds_min() const { return bounds_min_; }
+    [[nodiscard]] glm::vec3 bounds_max() const { return bounds_max_; }
+
+private:
+    ShadowMesh() = default;
+
+    std::uint64_t id_ = 0;
+    MeshReport report_;
+    std::vector<glm::vec3> positions_;
+    std::vector<std::array<std::uint32_t, 3>> faces_;
+    std::vector<Edge> edges_;
+    std::vector<FaceUse> uses_;
+    std::vector<Component> components_;
+    std::vector<std::uint32_t> face_components_;
+    std::vector<FacePlane> planes_;
+    glm::vec3 bounds_min_{0.0F};
+    glm::vec3 bounds_max_{0.0F};
+};
+
+}  // namespace gnomon::shadows

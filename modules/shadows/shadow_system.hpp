@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+//
+// ShadowSystem: from casters and lights, submitted in a plain loop by whatever owns them, to a list
+// of volumes to draw. It compares what it is told with what it saw last and works only on what
+// changed; it says why for every pair.
+//
+//     auto frame = system.begin_frame();  // Full: what is not submitted is gone
+//     for (auto& ship : ships)
+//         frame.caster({.key = ship.id, .mesh = ship.mesh, .world_from_local = ship.pose});
+//     frame.light({.key = 1, .position_world = {0.3, 1.0, 0.2, 0.0}});
+//     const DrawList list = std::move(frame).finish(view);
+//
+// It knows no ECS, no GPU, no scene. One system, one thread at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include <gnomon/core/expects.hpp>
+#include <gnomon/core/result.hpp>
+#include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/light.hpp>
+#include <gnomon/shadows/shadow_mesh.hpp>
+#include <gnomon/shadows/technique.hpp>
+#include <gnomon/shadows/view.hpp>
+#include <gnomon/shadows/volume.hpp>
+
+namespace gnomon::shadows {
+
+struct Caster {
+    std::uint64_t key = 0;  ///< the host's name for it; unique among casters
+    std::shared_ptr<const ShadowMesh> mesh;
+    glm::dmat4 world_from_local{1.0};  ///< affine
+    /// Every casting face is in the depth buffer: drawn, unculled, undiscarded. Then depth-pass
+    /// needs no near caps.
+    bool in_depth_buffer = true;
+};
+
+/// Why a pair's volume is what it is this frame.
+enum class Reason : std::uint8_t {
+    Unchanged,     ///< poses are bit-equal, or differ by the rounding of their own composition:
+                   ///< nothing was done
+    WithinMargin,  ///< moved, but provably less than the silhouette needs to change: nothing was
+                   ///< detected
+    New,           ///< the pair was not there before
+    LightMoved,
+    CasterMoved,
+    BothMoved,
+    MeshChanged,
+    ProjectionChanged,  ///< other far vertices are needed; detected anew as well
+    OutOfRange,         ///< the caster is beyond the light's range: no volume
+};
+inline constexpr std::size_t reason_count = 9;
+[[nodiscard]] std::string_view to_string(Reason reason);
+
+/// One volume to draw.
+struct VolumeDraw {
+    std::uint64_t light = 0;
+    std::uint64_t caster = 0;
+    std::shared_ptr<const ShadowMesh> mesh;
+    std::shared_ptr<const Volume> volume;
+    std::uint64_t revision = 0;  ///< changes whenever the indices do; unique in the process
+    glm::dmat4 world_from_local{1.0};
+    /// Takes the far vertices (p * scale + offset) to the world: the caster's own pose, but for
+    /// singular poses.
+    glm::dmat4 world_from_far{1.0};
+    Extrusion extrusion;
+    Technique technique = Technique::DepthFail;
+    bool near_caps = true;  ///< depth-pass: whether caps must be drawn as well
+    bool mirrored = false;  ///< the pose turns triangles over: front and back exchange
+    Reason reason = Reason::New;
+};
+
+/// The volumes of one light: draws[first .. first + count).
+struct LightDraws {
+    std::uint64_t light = 0;
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+struct FrameStats {
+    std::string_view silhouette;  ///< the strategy that was used, by name
+    std::uint64_t casters = 0;
+    std::uint64_t lights = 0;
+    std::uint64_t pairs = 0;
+    std::uint64_t pairs_culled = 0;
+    std::uint64_t pairs_redetected = 0;
+    std::uint64_t pairs_reused = 0;
+    std::uint64_t zpass_pairs = 0;
+    std::uint64_t zfail_pairs = 0;
+    std::uint64_t silhouette_edges = 0;  ///< of all pairs drawn
+    std::uint64_t faces_tested = 0;
+    FacingStats facing;
+    double detect_ms = 0.0;                             ///< facing and silhouettes
+    double build_ms = 0.0;                              ///< index ranges
+    std::array<std::uint64_t, reason_count> reasons{};  ///< pairs, by Reason
+};
+
+/// What to draw this frame: sorted by light key, then caster key. Same input, same list.
+struct DrawList {
+    std::vector<LightDraws> lights;  ///< every light of the frame, also one without volumes
+    std::vector<VolumeDraw> draws;
+    FrameStats stats;
+};
+
+enum class Submission : std::uint8_t {
+    Full,   ///< what is not submitted is gone
+    Delta,  ///< what is not submitted is as it was; use remove_caster and remove_light
+};
+
+struct SystemOptions {
+    std::optional<Technique> force_technique =
+        std::nullopt;                      ///< for every pair, valid or not; for tests and reports
+    std::string_view silhouette = "auto";  ///< a name from silhouette_strategies(), or "auto"
+};
+
+class ShadowSystem {
+public:
+    /// Fails with ErrorCode::InvalidInput for an unknown strategy name.
+    [[nodiscard]] static Result<ShadowSystem> create(const SystemOptions& options = {});
+    ShadowSystem(ShadowSystem&&) noexcept;
+    ShadowSystem& operator=(ShadowSystem&&) noexcept;
+    ~ShadowSystem();
+
+    /// One frame's submission. Ends with finish(); dropped without it, it has still been submitted.
+    class Frame {
+    public:
+        /// A key submitted twice in a frame: the last one counts. Cost: a look-up and a compare.
+        void caster(const Caster& caster);
+        void light(const Light& light);
+        void remove_caster(std::uint64_t key);
+        void remove_light(std::uint64_t key);
+        /// Detects and builds what changed. A matrix or light that is not finite leaves its pairs
+        /// out and is counted as culled. Cost: O(casters x lights) compares, plus the work on pairs
+        /// that changed.
+        [[nodiscard]] DrawList finish(const View& view) &&;
+
+    private:
+        friend class ShadowSystem;
+        explicit Frame(ShadowSystem& system) : system_(&system) {}
+        ShadowSystem* system_;
+    };
+
+    [[nodiscard]] Frame begin_frame(Submission submission = Submission::Full);
+
+private:
+    struct State;
+    explicit ShadowSystem(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace gnomon::shadows

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/shadows/silhouette.hpp>
+
+#include <array>
+
+namespace gnomon::shadows {
+
+void find_silhouette(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
+                     std::vector<SilhouetteEdge>& out) {
+    out.clear();
+    const auto uses = mesh.uses();
+    for (const Edge& edge : mesh.edges()) {
+        std::int32_t sum = 0;
+        for (std::uint32_t i = edge.first_use; i < edge.first_use + edge.use_count; ++i) {
+            sum += uses[i].sign * weights[uses[i].face];
+        }
+        if (sum > 0) out.push_back({edge.low, edge.high, sum});
+        if (sum < 0) out.push_back({edge.high, edge.low, -sum});
+    }
+}
+
+std::span<const SilhouetteStrategy> silhouette_strategies() {
+    static constexpr std::array<SilhouetteStrategy, 1> strategies{{
+        {"brute_force", "every edge of the mesh, every time", find_silhouette},
+    }};
+    return strategies;
+}
+
+}  // namespace gnomon::shadows

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+//
+// Volumes are closed as integers whatever the weights; caps keep the mesh's triples and order; and
+// far vertices go where the extrusion says. What the volume counts is in count_test.cpp.
+#include <gnomon/shadows/volume.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/shadows/facing.hpp>
+
+#include "tests/shadows/random_meshes.hpp"
+
+namespace gnomon::shadows {
+namespace {
+
+using test::Random;
+
+struct Made {
+    std::vector<SilhouetteEdge> silhouette;
+    Volume volume;
+};
+
+Made make(const ShadowMesh& mesh, const std::vector<std::int8_t>& weights, bool directional,
+          FarVertices far_vertices) {
+    Made made;
+    find_silhouette(mesh, weights, made.silhouette);
+    build_volume(mesh, weights, made.silhouette, directional, far_vertices, made.volume);
+    return made;
+}
+
+std::vector<std::int8_t> weights_for(Random& random, const ShadowMesh& mesh, LightLocal light) {
+    if (random.chance(0.5)) {
+        Facing facing;
+        classify_faces(mesh, light, facing);
+        return facing.weights;
+    }
+    std::vector<std::int8_t> weights;
+    for (std::size_t f = 0; f < mesh.faces().size(); ++f) {
+        weights.push_back(static_cast<std::int8_t>(random.integer(-2, 2)));
+    }
+    return weights;
+}
+
+// The near triples a cap must have, in the mesh's own order.
+std::vector<std::uint32_t> cap(const ShadowMesh& mesh, const std::vector<std::int8_t>& weights,
+                               int sign) {
+    std::vector<std::uint32_t> indices;
+    for (std::size_t f = 0; f < weights.size(); ++f) {
+        for (int i = 0; i < sign * weights[f]; ++i) {
+            for (const std::uint32_t v : mesh.faces()[f]) indices.push_back(2 * v);
+        }
+    }
+    return indices;
+}
+
+std::vector<std::uint32_t> slice(const Volume& volume, IndexRange range) {
+    const auto begin = volume.indices.begin() + range.first;
+    return {begin, begin + range.count};
+}
+
+TEST(Volume, IsClosedForAnyMeshAnyLightAnyWeights) {
+    GNOMON_RANDOM(random);
+    for (int i = 0; i < 4'000; ++i) {
+        const auto mesh = test::build(test::random_mesh(random));
+        const LightLocal light = test::random_light(random, *mesh);
+        const auto weights = weights_for(random, *mesh, light);
+        const auto far = random.chance(0.5) ? FarVertices::AtInfinity : FarVertices::Finite;
+        const bool one_far_point = light.is_directional() && far == FarVertices::AtInfinity;
+        const auto [silhouette, volume] = make(*mesh, weights, light.is_directional(), far);
+
+        ASSERT_TRUE(is_closed(volume, one_far_point)) << "mesh " << i;
+
+        // The ranges follow each other and hold what they must.
+        std::uint32_t sides = 0;
+        for (const SilhouetteEdge& e : silhouette) sides += static_cast<std::uint32_t>(e.count);
+        std::uint32_t layers = 0;
+        for (const int w : weights) layers += static_cast<std::uint32_t>(std::abs(w));
+        ASSERT_EQ(volume.silhouette_edges, silhouette.size());
+        ASSERT_EQ(volume.sides.first, 0U);
+        ASSERT_EQ(volume.sides.count, sides * (one_far_point ? 3 : 6));
+        ASSERT_EQ(volume.near_cap.first, volume.sides.count);
+        ASSERT_EQ(volume.far_cap.first, volume.near_cap.first + volume.near_cap.count);
+        ASSERT_EQ(volume.far_cap.count, one_far_point ? 0 : 3 * layers);
+        ASSERT_EQ(volume.near_cap_flipped.first, volume.far_cap.first + volume.far_cap.count);
+        ASSERT_EQ(volume.indices.size(),
+                  volume.near_cap_flipped.first + volume.near_cap_flipped.count);
+
+        ASSERT_EQ(slice(volume, volume.near_cap), cap(*mesh, weights, 1));
+        ASSERT_EQ(slice(volume, volume.near_cap_flipped), cap(*mesh, weights, -1));
+        for (const std::uint32_t index : slice(volume, volume.far_cap)) ASSERT_EQ(index % 2, 1U);
+        for (const std::uint32_t index : volume.indices) {
+            ASSERT_LT(index, 2 * mesh->positions().size());
+        }
+    }
+}
+
+TEST(Volume, ReplacesWhatWasThereBefore) {
+    const auto mesh = test::build(test::box());
+    const std::vector<std::int8_t> weights(12, 0);
+    Volume volume;
+    volume.indices = {1, 2, 3};
+    volume.silhouette_edges = 5;
+    build_volume(*mesh, weights, {}, false, FarVertices::AtInfinity, volume);
+    EXPECT_TRUE(volume.indices.empty());
+    EXPECT_EQ(volume.silhouette_edges, 0U);
+    EXPECT_TRUE(is_closed(volume, false));
+}
+
+// ---------------------------------------------------------------------------------------------
+// is_closed must be able to say no
+
+class BrokenVolume : public ::testing::TestWithParam<bool> {
+protected:
+    [[nodiscard]] bool directional() const { return GetParam(); }
+    [[nodiscard]] Volume whole() const {
+        Facing facing;
+        classify_faces(*mesh_, {glm::vec4(3, 4, 5, directional() ? 0 : 1)}, facing);
+        // One averted face, so that no range is empty.
+        facing.weights[static_cast<std::size_t>(
+            std::find(facing.weights.begin(), facing.weights.end(), 0) - facing.weights.begin())] =
+            -1;
+        return make(*mesh_, facing.weights, directional(), FarVertices::AtInfinity).volume;
+    }
+    void expect_broken(const Volume& volume) const {
+        EXPECT_FALSE(is_closed(volume, directional()));
+    }
+    // The range's triangles become points, which have no edges.
+    static void drop(Volume& volume, IndexRange range) {
+        for (std::uint32_t i = 0; i < range.count; ++i) {
+            volume.indices[range.first + i] = volume.indices[range.first];
+        }
+    }
+    std::shared_ptr<const ShadowMesh> mesh_ = test::build(test::sphere(4, 6));
+};
+
+TEST_P(BrokenVolume, IsWholeBeforeItIsBroken) { EXPECT_TRUE(is_closed(whole(), directional())); }
+
+TEST_P(BrokenVolume, NoticesAnyMissingTriangle) {
+    const Volume good = whole();
+    for (std::uint32_t t = 0; t < good.indices.size(); t += 3) {
+        Volume bad = good;
+        drop(bad, {t, 3});
+        expect_broken(bad);
+    }
+}
+
+TEST_P(BrokenVolume, NoticesAnyFlippedTriangle) {
+    const Volume good = whole();
+    for (std::uint32_t t = 0; t < good.indices.size(); t += 3) {
+        Volume bad = good;
+        std::swap(bad.indices[t + 1], bad.indices[t + 2]);
+        expect_broken(bad);
+    }
+}
+
+TEST_P(BrokenVolume, NoticesAMissingCap) {
+    for (const auto range :
+         {&Volume::sides, &Volume::near_cap, &Volume::far_cap, &Volume::near_cap_flipped}) {
+        Volume bad = whole();
+        if ((bad.*range).count == 0) continue;  // directional: no far cap to miss
+        drop(bad, bad.*range);
+        expect_broken(bad);
+    }
+}
+
+TEST_P(BrokenVolume, NoticesAWrongRangeOfFlippedCaps) {
+    Volume bad = whole();
+    bad.near_cap_flipped.count = 0;
+    expect_broken(bad);
+}
+
+TEST_P(BrokenVolume, NoticesOneFacingBitThatOnlyTheSidesSaw) {
+    Facing facing;
+    classify_faces(*mesh_, {glm::vec4(3, 4, 5, directional() ? 0 : 1)}, facing);
+    for (std::size_t f = 0; f < facing.weights.size(); ++f) {
+        std::vector<std::int8_t> other = facing.weights;
+        other[f] = static_cast<std::int8_t>(other[f] == 0 ? 1 : 0);
+        std::vector<SilhouetteEdge> silhouette;
+        find_silhouette(*mesh_, other, silhouette);
+        Volume volume;
+        build_volume(*mesh_, facing.weights, silhouette, directional(), FarVertices::AtInfinity,
+                     volume);
+        expect_broken(volume);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, BrokenVolume, ::testing::Bool(),
+                         [](const auto& info) { return info.param ? "Directional" : "Point"; });
+
+TEST(Volume, FarVerticesAreOnePointOnlyWhereTheyAreAtInfinity) {
+    const auto mesh = test::build(test::box());
+    Facing facing;
+    classify_faces(*mesh, {{3, 4, 5, 0}}, facing);
+    const Volume at_infinity = make(*mesh, facing.weights, true, FarVertices::AtInfinity).volume;
+    EXPECT_TRUE(is_closed(at_infinity, true));
+    EXPECT_FALSE(is_closed(at_infinity, false))
+        << "the far ends are open unless they are one point";
+    EXPECT_TRUE(is_closed(make(*mesh, facing.weights, true, FarVertices::Finite).volume, false));
+}
+
+TEST(Volume, NeighboursSplitACommonSideAlike) {
+    // The same edge in two meshes whose vertex numbers run the other way round.
+    const auto one = test::build({{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, {0, 1, 2}});
+    const auto two = test::build({{{0, 0, 1}, {0, 0, 0}, {-1, 0, 0}}, {0, 1, 2}});
+    const auto diagonal = [](const ShadowMesh& mesh) {
+        // The side of the edge between (0,0,0) and (0,0,1): which near vertex has the diagonal?
+        const std::vector<std::int8_t> weights{1};
+        const Volume volume = make(mesh, weights, false, FarVertices::AtInfinity).volume;
+        std::vector<glm::vec3> starts;
+        for (std::uint32_t t = 0; t < volume.sides.count; t += 3) {
+            std::vector<std::uint32_t> near;
+            std::vector<std::uint32_t> far;
+            for (std::uint32_t i = 0; i < 3; ++i) {
+                const std::uint32_t index = volume.indices[t + i];
+                (index % 2 == 0 ? near : far).push_back(index / 2);
+            }
+            if (near.size() != 2) continue;
+            const glm::vec3 a = mesh.positions()[near[0]];
+            const glm::vec3 b = mesh.positions()[near[1]];
+            if (a.x != 0.0F || b.x != 0.0F) continue;
+            // The triangle with two near corners: its far corner ends the diagonal.
+            starts.push_back(far[0] == near[0] ? b : a);
+        }
+        return starts;
+    };
+    ASSERT_EQ(diagonal(*one).size(), 1U);
+    EXPECT_EQ(diagonal(*one), diagonal(*two));
+    EXPECT_EQ(diagonal(*one)[0], glm::vec3(0, 0, 0)) << "the lexicographically smaller position";
+}
+
+// ---------------------------------------------------------------------------------------------
+// Extrusion
+
+TEST(Extrusion, AtInfinityIsTheWayFromTheLight) {
+    const std::vector<glm::vec3> positions{{1, 2, 3}, {-4, 0.1F, 9}, {0, 0, 0}};
+    std::vector<glm::vec4> far{{1, 1, 1, 1}};
+    extrude(positions, infinite_extrusion({{5, -6, 7, 1}}), far);
+    ASSERT_EQ(far.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(far[i], glm::vec4(positions[i] - glm::vec3(5, -6, 7), 0.0F));
+    }
+    extrude(positions, infinite_extrusion({{0.3F, 1, -2, 0}}), far);
+    for (const glm::vec4& v : far) EXPECT_EQ(v, glm::vec4(-0.3F, -1, 2, 0)) << "all are one point";
+}
+
+TEST(Extrusion, DoesExactlyWhatTheShaderDoes) {
+    GNOMON_RANDOM(random);
+    std::vector<glm::vec4> far;
+    for (int i = 0; i < 200; ++i) {
+        const glm::vec3 p(random.in_cube(100.0));
+        const Extrusion e{static_cast<float>(random.uniform(0.0, 5.0)),
+                          glm::vec4(glm::vec3(random.in_cube(100.0)), 0.25F)};
+        extrude(std::vector{p}, e, far);
+        for (int c = 0; c < 3; ++c) {
+            const float product = p[c] * e.scale;
+            const float sum = product + e.offset[c];
+            ASSERT_EQ(far[0][c], sum);
+        }
+        ASSERT_EQ(far[0].w, 0.25F);
+    }
+}
+
+glm::dvec3 place(const glm::vec4& homogeneous) {
+    return glm::dvec3(homogeneous) / static_cast<double>(homogeneous.w);
+}
+
+TEST(Extrusion, FiniteGoesReachTimesAsFarFromTheLight) {
+    GNOMON_RANDOM(random);
+    std::vector<glm::vec4> far;
+    for (int i = 0; i < 2'000; ++i) {
+        const glm::vec3 l(random.in_cube(20.0));
+        const glm::vec3 p =
+            l + glm::vec3(random.unit_vector() * std::pow(10.0, random.uniform(-3, 2)));
+        const double reach = std::pow(10.0, random.uniform(0.1, 7.0));
+        extrude(std::vector{p}, finite_extrusion({{l, 1.0F}}, reach), far);
+        const glm::dvec3 expected = glm::dvec3(l) + reach * (glm::dvec3(p) - glm::dvec3(l));
+        // Rounded as the light itself was: by single precision at the light's and p's coordinates.
+        const double allowed =
+            0x1p-22 * reach * (glm::length(glm::dvec3(l)) + glm::length(glm::dvec3(p)));
+        ASSERT_LT(glm::length(place(far[0]) - expected), allowed) << "reach " << reach;
+    }
+    const glm::vec3 d(0.5F, -2.0F, 1.0F);
+    const glm::vec3 p(3, 4, 5);
+    extrude(std::vector{p}, finite_extrusion({{d, 0.0F}}, 64.0), far);
+    EXPECT_EQ(place(far[0]), glm::dvec3(p) - 64.0 * glm::dvec3(d));
+}
+
+}  // namespace
+}  // namespace gnomon::shadows
