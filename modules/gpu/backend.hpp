@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// Backend: what a graphics API has to provide. It is a translator, not an architecture: everything
+// that arrives here has been validated by the Device in front, so a backend reports only what the
+// front end cannot know (the driver refuses, memory runs out, the device is lost). Ids come from
+// the front end; a backend keeps a table indexed by Id::index and never invents names.
+// docs/backends.md is the checklist for writing one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <gnomon/core/result.hpp>
+#include <gnomon/gpu/caps.hpp>
+#include <gnomon/gpu/command.hpp>
+#include <gnomon/gpu/descriptors.hpp>
+
+namespace gnomon::gpu {
+
+class Backend {
+public:
+    virtual ~Backend() = default;
+
+    [[nodiscard]] virtual const Caps& caps() const = 0;
+
+    virtual Status create_buffer(BufferId, const BufferDesc&) = 0;  ///< contents start as zero
+    virtual Status create_texture(TextureId, const TextureDesc&) = 0;
+    virtual Status create_sampler(SamplerId, const SamplerDesc&) = 0;
+    virtual Status create_shader(ShaderId, const ShaderDesc&) = 0;
+    virtual Status create_bind_group_layout(BindGroupLayoutId, const BindGroupLayoutDesc&) = 0;
+    virtual Status create_bind_group(BindGroupId, const BindGroupDesc&) = 0;
+    virtual Status create_render_pipeline(RenderPipelineId, const RenderPipelineDesc&) = 0;
+    virtual Status create_query_set(QuerySetId, const QuerySetDesc&) = 0;
+
+    // The object may still be in use by work that was submitted: a backend keeps it until that is
+    // done.
+    virtual void destroy(BufferId) = 0;
+    virtual void destroy(TextureId) = 0;
+    virtual void destroy(SamplerId) = 0;
+    virtual void destroy(ShaderId) = 0;
+    virtual void destroy(BindGroupLayoutId) = 0;
+    virtual void destroy(BindGroupId) = 0;
+    virtual void destroy(RenderPipelineId) = 0;
+    virtual void destroy(QuerySetId) = 0;
+
+    /// Queue order: seen by everything submitted later, by nothing submitted before.
+    virtual Status write_buffer(BufferId, std::uint64_t offset, std::span<const std::byte>) = 0;
+    /// A whole mip level, rows tightly packed, row 0 on top.
+    virtual Status write_texture(TextureId, std::uint32_t mip_level,
+                                 std::span<const std::byte>) = 0;
+
+    virtual Status submit(const CommandBuffer&) = 0;
+    /// Blocks until the device has finished everything submitted.
+    virtual Status wait_idle() = 0;
+
+    // Reading back blocks. Sizes of the spans are right.
+    virtual Status read_buffer(BufferId, std::uint64_t offset, std::span<std::byte>) = 0;
+    /// Mip level 0 of a single-sampled texture, rows tightly packed, row 0 on top.
+    virtual Status read_texture(TextureId, Aspect, std::span<std::byte>) = 0;
+    virtual Result<std::vector<std::uint64_t>> read_query_set(QuerySetId) = 0;
+
+    /// Copies a colour texture onto the window, stretched to its size. Unsupported where there is
+    /// no window.
+    virtual Status present(TextureId) = 0;
+};
+
+}  // namespace gnomon::gpu

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+//
+// The one outlet for what a device has to say outside of a Result: driver messages, validation
+// layers, choices made at start-up. A library never prints; the host decides what becomes of a
+// message.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace gnomon::gpu {
+
+enum class Severity { Info, Warning, Error };
+
+/// Called on the thread that made the GPU call. May be empty: messages are then dropped.
+using MessageSink = std::function<void(Severity, std::string_view message)>;
+
+}  // namespace gnomon::gpu
