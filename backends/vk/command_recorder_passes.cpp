@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+//
+// What a render pass needs before it begins and leaves behind when it ends: defined contents,
+// barriers, the render pass and framebuffer objects, queries.
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "internal/command_recorder.hpp"
+#include "internal/conv.hpp"
+
+namespace gnomon::vk {
+
+namespace {
+
+VkClearValue clear_color(gpu::Format format, const gpu::Color& color) {
+    VkClearValue value{};
+    if (gpu::is_uint(format)) {
+        value.color.uint32[0] = static_cast<std::uint32_t>(color.r);
+        value.color.uint32[1] = static_cast<std::uint32_t>(color.g);
+        value.color.uint32[2] = static_cast<std::uint32_t>(color.b);
+        value.color.uint32[3] = static_cast<std::uint32_t>(color.a);
+    } else {
+        value.color.float32[0] = static_cast<float>(color.r);
+        value.color.float32[1] = static_cast<float>(color.g);
+        value.color.float32[2] = static_cast<float>(color.b);
+        value.color.float32[3] = static_cast<float>(color.a);
+    }
+    return value;
+}
+
+/// Loading what counts as zero is clearing to zero.
+VkAttachmentLoadOp load_op(gpu::LoadOp wanted, const Texture& texture, VkImageAspectFlags aspect) {
+    return (texture.undefined & aspect) != 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : to_vk(wanted);
+}
+
+/// The value for the load operation above.
+bool clears_to_zero(gpu::LoadOp wanted) { return wanted == gpu::LoadOp::Load; }
+
+void note_store(Texture& texture, VkImageAspectFlags aspect, gpu::StoreOp op) {
+    if (op == gpu::StoreOp::Discard) {
+        texture.undefined |= aspect & texture.aspects;
+    } else {
+        texture.undefined &= ~aspect;
+    }
+}
+
+}  // namespace
+
+Status CommandRecorder::begin_pass(const gpu::RenderPassDesc& pass,
+                                   std::span<const gpu::Command> commands) {
+    std::size_t length = 0;
+    while (!std::holds_alternative<gpu::cmd::EndRenderPass>(commands[length])) {
+        ++length;
+    }
+    commands = commands.first(length);
+
+    BarrierBatch barriers;
+    prepare_reads(commands, barriers);
+    FramebufferKey framebuffer_key;
+    std::vector<VkImageView> resolve_views;
+    std::vector<VkClearValue> clears;
+    for (const gpu::ColorAttachment& attachment : pass.color_attachments) {
+        Texture& texture = resources_.textures[attachment.texture];
+        prepare_attachment(texture, Usage::ColorAttachment, barriers);
+        framebuffer_key.views.push_back(texture.attachment);
+        clears.push_back(clear_color(texture.format, clears_to_zero(attachment.load_op)
+                                                         ? gpu::Color{}
+                                                         : attachment.clear_value));
+        if (attachment.resolve_target) {
+            Texture& target = resources_.textures[attachment.resolve_target];
+            prepare_attachment(target, Usage::ColorAttachment, barriers);
+            resolve_views.push_back(target.attachment);
+        }
+        framebuffer_key.width = texture.width;
+        framebuffer_key.height = texture.height;
+    }
+    framebuffer_key.views.insert(framebuffer_key.views.end(), resolve_views.begin(),
+                                 resolve_views.end());
+    clears.resize(framebuffer_key.views.size());
+    if (pass.depth_stencil) {
+        const gpu::DepthStencilAttachment& attachment = *pass.depth_stencil;
+        Texture& texture = resources_.textures[attachment.texture];
+        prepare_attachment(texture, Usage::DepthStencilAttachment, barriers);
+        framebuffer_key.views.push_back(texture.attachment);
+        VkClearValue clear{};
+        clear.depthStencil.depth =
+            clears_to_zero(attachment.depth_load_op) ? 0.0F : attachment.depth_clear_value;
+        clear.depthStencil.stencil =
+            clears_to_zero(attachment.stencil_load_op) ? 0 : attachment.stencil_clear_value;
+        clears.push_back(clear);
+        framebuffer_key.width = texture.width;
+        framebuffer_key.height = texture.height;
+    }
+    barriers.flush(device_.fn, out_);
+
+    const Result<VkRenderPass> render_pass = render_passes_.render_pass(describe_attachments(pass));
+    if (!render_pass) {
+        return forward_error(render_pass);
+    }
+    framebuffer_key.render_pass = *render_pass;
+    const Result<VkFramebuffer> framebuffer =
+        render_passes_.framebuffer(framebuffer_key, fmt::format("render pass '{}'", pass.label));
+    if (!framebuffer) {
+        return forward_error(framebuffer);
+    }
+
+    pass_ = &pass;
+    pipeline_ = nullptr;
+    groups_ = {};
+    begin_label(pass.label);
+    reset_queries(commands);
+    if (pass.timestamp_writes) {
+        write_timestamp(pass.timestamp_writes->query_set, pass.timestamp_writes->beginning_index);
+    }
+    VkRenderPassBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
+    info.renderPass = *render_pass;
+    info.framebuffer = *framebuffer;
+    info.renderArea.extent = {framebuffer_key.width, framebuffer_key.height};
+    info.clearValueCount = static_cast<std::uint32_t>(clears.size());
+    info.pClearValues = clears.data();
+    device_.fn.CmdBeginRenderPass(out_, &info, VK_SUBPASS_CONTENTS_INLINE);
+    set_default_state(framebuffer_key.width, framebuffer_key.height);
+    return {};
+}
+
+void CommandRecorder::end_pass() {
+    device_.fn.CmdEndRenderPass(out_);
+    if (pass_->timestamp_writes) {
+        write_timestamp(pass_->timestamp_writes->query_set, pass_->timestamp_writes->end_index);
+    }
+    end_label();
+    note_stores(*pass_);
+    pass_ = nullptr;
+}
+
+void CommandRecorder::prepare_reads(std::span<const gpu::Command> commands,
+                                    BarrierBatch& barriers) {
+    const auto read_buffer = [&](gpu::BufferId id, Usage usage) {
+        Buffer& buffer = resources_.buffers[id];
+        define_contents(device_, out_, buffer);
+        use_buffer(buffer, usage, barriers);
+    };
+    for (const gpu::Command& command : commands) {
+        if (const auto* set = std::get_if<gpu::cmd::SetBindGroup>(&command)) {
+            const BindGroup& group = resources_.bind_groups[set->bind_group];
+            for (const gpu::BufferId id : group.buffers) {
+                read_buffer(id, Usage::Uniform);
+            }
+            for (const BoundTexture& bound : group.textures) {
+                Texture& texture = resources_.textures[bound.texture];
+                define_contents(device_, out_, texture);
+                use_texture(
+                    texture,
+                    bound.in_vertex_shader ? Usage::SampledInVertex : Usage::SampledInFragment,
+                    barriers);
+            }
+        } else if (const auto* vertices = std::get_if<gpu::cmd::SetVertexBuffer>(&command)) {
+            read_buffer(vertices->buffer, Usage::VertexInput);
+        } else if (const auto* indices = std::get_if<gpu::cmd::SetIndexBuffer>(&command)) {
+            read_buffer(indices->buffer, Usage::VertexInput);
+        }
+    }
+}
+
+void CommandRecorder::prepare_attachment(Texture& texture, Usage usage, BarrierBatch& barriers) {
+    if (texture.mip_level_count > 1) {
+        // The pass clears level 0 alone.
+        define_contents(device_, out_, texture);
+    } else if (texture.undefined == texture.aspects) {
+        texture.tracker.forget_contents();
+    }
+    use_texture(texture, usage, barriers);
+}
+
+RenderPassKey CommandRecorder::describe_attachments(const gpu::RenderPassDesc& pass) {
+    const auto describe = [](const Texture& texture, Usage usage) {
+        AttachmentState state;
+        state.format = to_vk(texture.format);
+        state.samples = to_vk_samples(texture.sample_count);
+        state.layout = layout_of(usage, texture.aspects);
+        return state;
+    };
+    RenderPassKey key;
+    for (const gpu::ColorAttachment& attachment : pass.color_attachments) {
+        const Texture& texture = resources_.textures[attachment.texture];
+        AttachmentState state = describe(texture, Usage::ColorAttachment);
+        state.load = load_op(attachment.load_op, texture, VK_IMAGE_ASPECT_COLOR_BIT);
+        state.store = to_vk(attachment.store_op);
+        state.resolves = static_cast<bool>(attachment.resolve_target);
+        key.colors.push_back(state);
+    }
+    if (pass.depth_stencil) {
+        const gpu::DepthStencilAttachment& attachment = *pass.depth_stencil;
+        const Texture& texture = resources_.textures[attachment.texture];
+        AttachmentState state = describe(texture, Usage::DepthStencilAttachment);
+        state.load = load_op(attachment.depth_load_op, texture, VK_IMAGE_ASPECT_DEPTH_BIT);
+        state.store = to_vk(attachment.depth_store_op);
+        if (gpu::has_stencil(texture.format)) {
+            state.stencil_load =
+                load_op(attachment.stencil_load_op, texture, VK_IMAGE_ASPECT_STENCIL_BIT);
+            state.stencil_store = to_vk(attachment.stencil_store_op);
+        }
+        key.depth_stencil.push_back(state);
+    }
+    return key;
+}
+
+void CommandRecorder::note_stores(const gpu::RenderPassDesc& pass) {
+    for (const gpu::ColorAttachment& attachment : pass.color_attachments) {
+        note_store(resources_.textures[attachment.texture], VK_IMAGE_ASPECT_COLOR_BIT,
+                   attachment.store_op);
+        if (attachment.resolve_target) {
+            note_store(resources_.textures[attachment.resolve_target], VK_IMAGE_ASPECT_COLOR_BIT,
+                       gpu::StoreOp::Store);
+        }
+    }
+    if (pass.depth_stencil) {
+        Texture& texture = resources_.textures[pass.depth_stencil->texture];
+        note_store(texture, VK_IMAGE_ASPECT_DEPTH_BIT, pass.depth_stencil->depth_store_op);
+        note_store(texture, VK_IMAGE_ASPECT_STENCIL_BIT, pass.depth_stencil->stencil_store_op);
+    }
+}
+
+void CommandRecorder::reset_queries(std::span<const gpu::Command> commands) {
+    for (const gpu::Command& command : commands) {
+        if (const auto* query = std::get_if<gpu::cmd::BeginOcclusionQuery>(&command)) {
+            reset_query(pass_->occlusion_query_set, query->index);
+        }
+    }
+    if (pass_->timestamp_writes) {
+        const gpu::TimestampWrites& writes = *pass_->timestamp_writes;
+        reset_query(writes.query_set, writes.beginning_index);
+        reset_query(writes.query_set, writes.end_index);
+    }
+}
+
+void CommandRecorder::reset_query(gpu::QuerySetId query_set, std::uint32_t index) {
+    device_.fn.CmdResetQueryPool(out_, resources_.query_sets[query_set].pool, index, 1);
+}
+
+void CommandRecorder::write_timestamp(gpu::QuerySetId query_set, std::uint32_t index) {
+    QuerySet& queries = resources_.query_sets[query_set];
+    // The bottom of the pipe at the beginning too: when all earlier work is done, so that the
+    // difference is this pass's own time.
+    device_.fn.CmdWriteTimestamp(out_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries.pool, index);
+    queries.written[index] = true;
+}
+
+void CommandRecorder::set_default_state(std::uint32_t width, std::uint32_t height) {
+    visit(gpu::cmd::SetViewport{
+        .x = 0, .y = 0, .width = static_cast<float>(width), .height = static_cast<float>(height)});
+    visit(gpu::cmd::SetScissorRect{.x = 0, .y = 0, .width = width, .height = height});
+    visit(gpu::cmd::SetStencilReference{});
+    visit(gpu::cmd::SetBlendConstant{});
+}
+
+}  // namespace gnomon::vk

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+//
+// One visit over a command buffer of the interface: each command becomes one of Vulkan's. Barriers
+// cannot be recorded within a render pass, so a pass is looked through once before it begins.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include <gnomon/gpu/command.hpp>
+
+#include "internal/resources.hpp"
+
+namespace gnomon::vk {
+
+class CommandRecorder {
+public:
+    CommandRecorder(Device& device, RenderPasses& render_passes, Resources& resources,
+                    VkCommandBuffer out)
+        : device_(device), render_passes_(render_passes), resources_(resources), out_(out) {}
+
+    /// Fails when memory for a render pass or framebuffer runs out; what came before that pass
+    /// stays recorded.
+    [[nodiscard]] Status record(const gpu::CommandBuffer& source);
+
+private:
+    struct BoundGroup {
+        gpu::cmd::SetBindGroup command;
+        bool set = false;
+        bool stale = false;  // not yet known to Vulkan
+    };
+
+    // Passes (command_recorder_passes.cpp).
+    [[nodiscard]] Status begin_pass(const gpu::RenderPassDesc& pass,
+                                    std::span<const gpu::Command> commands);
+    void prepare_reads(std::span<const gpu::Command> commands, BarrierBatch& barriers);
+    void prepare_attachment(Texture& texture, Usage usage, BarrierBatch& barriers);
+    [[nodiscard]] RenderPassKey describe_attachments(const gpu::RenderPassDesc& pass);
+    void note_stores(const gpu::RenderPassDesc& pass);
+    void reset_queries(std::span<const gpu::Command> commands);
+    void reset_query(gpu::QuerySetId query_set, std::uint32_t index);
+    void write_timestamp(gpu::QuerySetId query_set, std::uint32_t index);
+    void end_pass();
+    void set_default_state(std::uint32_t width, std::uint32_t height);
+
+    void visit(const gpu::cmd::SetPipeline& command);
+    void visit(const gpu::cmd::SetBindGroup& command);
+    void visit(const gpu::cmd::SetVertexBuffer& command);
+    void visit(const gpu::cmd::SetIndexBuffer& command);
+    void visit(const gpu::cmd::SetStencilReference& command);
+    void visit(const gpu::cmd::SetBlendConstant& command);
+    void visit(const gpu::cmd::SetViewport& command);
+    void visit(const gpu::cmd::SetScissorRect& command);
+    void visit(const gpu::cmd::Draw& command);
+    void visit(const gpu::cmd::DrawIndexed& command);
+    void visit(const gpu::cmd::BeginOcclusionQuery& command);
+    void visit(const gpu::cmd::EndOcclusionQuery& command);
+    void visit(const gpu::cmd::CopyBufferToBuffer& command);
+
+    void bind_stale_groups();
+    void begin_label(const std::string& label);
+    void end_label();
+
+    Device& device_;
+    RenderPasses& render_passes_;
+    Resources& resources_;
+    VkCommandBuffer out_;
+
+    // Of the pass being recorded.
+    const gpu::RenderPassDesc* pass_ = nullptr;
+    const Pipeline* pipeline_ = nullptr;
+    std::array<BoundGroup, gpu::max_bind_groups> groups_{};
+    std::uint32_t open_query_ = 0;
+};
+
+}  // namespace gnomon::vk

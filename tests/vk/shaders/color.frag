@@ -1,0 +1,5 @@
+#version 450
+layout(binding = 0) uniform ColorBlock { vec4 color; };
+layout(location = 0) out vec4 out_color;
+
+void main() { out_color = color; }
