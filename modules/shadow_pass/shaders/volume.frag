@@ -1,0 +1,3 @@
+// Volumes write no colour.
+#version 450
+void main() {}

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/shadow_pass/shadow_pass.hpp>
+
+#include <array>
+#include <cstring>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include <gnomon_shaders/shadow_pass.hpp>
+
+#include "internal/index_arena.hpp"
+
+namespace gnomon::shadow_pass {
+
+using shadows::Technique;
+
+namespace {
+
+// As the shaders have it (std140).
+struct VolumeUniforms {
+    glm::mat4 clip_from_local;
+    glm::mat4 clip_from_far;
+    glm::vec4 far_offset;
+    glm::vec4 far_scale;
+};
+
+// Front and back are named from outside the volume. Depth-fail counts faces behind the surface
+// (equality included: comparison is strict, and caps lie on surfaces), depth-pass those in front.
+gpu::DepthStencilState counting(const ShadowPassDesc& desc, Technique technique, bool exchanged) {
+    gpu::DepthStencilState state{.format = desc.depth_stencil_format,
+                                 .depth_compare = desc.depth_compare};
+    gpu::StencilFaceState up;
+    gpu::StencilFaceState down;
+    if (technique == Technique::DepthFail) {
+        up.depth_fail_op = gpu::StencilOp::IncrementWrap;
+        down.depth_fail_op = gpu::StencilOp::DecrementWrap;
+        state.stencil_front = down;
+        state.stencil_back = up;
+    } else {
+        up.pass_op = gpu::StencilOp::IncrementWrap;
+        down.pass_op = gpu::StencilOp::DecrementWrap;
+        state.stencil_front = up;
+        state.stencil_back = down;
+    }
+    if (exchanged) std::swap(state.stencil_front, state.stencil_back);
+    return state;
+}
+
+std::size_t pipeline_index(Technique technique, bool exchanged, bool unclipped) {
+    return (technique == Technique::DepthFail ? 1U : 0U) + (exchanged ? 2U : 0U) +
+           (unclipped ? 4U : 0U);
+}
+
+// A run of indices that one draw call takes.
+struct Run {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    bool flipped = false;
+};
+
+std::vector<Run> runs_of(const shadows::VolumeDraw& draw) {
+    const shadows::Volume& v = *draw.volume;
+    const bool caps = draw.technique == Technique::DepthFail || draw.near_caps;
+    std::vector<Run> runs;
+    std::uint32_t count = v.sides.count;
+    if (caps) count += v.near_cap.count;
+    // A far cap at infinity is never in front of anything; a finite one closes the volume for
+    // depth-pass as well.
+    if (draw.technique == Technique::DepthFail || draw.extrusion.offset.w != 0.0F) {
+        if (caps) {
+            count += v.far_cap.count;
+        } else {
+            runs.push_back({v.far_cap.first, v.far_cap.count, false});
+        }
+    }
+    runs.push_back({0, count, false});
+    if (caps) runs.push_back({v.near_cap_flipped.first, v.near_cap_flipped.count, true});
+    std::erase_if(runs, [](const Run& run) { return run.count == 0; });
+    return runs;
+}
+
+// The volume's indices, and behind them one line per side: the near edge that it stands on.
+std::vector<std::uint32_t> with_silhouette_lines(const shadows::Volume& volume) {
+    std::vector<std::uint32_t> result = volume.indices;
+    const shadows::IndexRange& sides = volume.sides;
+    for (std::uint32_t i = sides.first; i < sides.first + sides.count; i += 3) {
+        const bool starts_a_side = volume.indices[i] % 2 == 0 && volume.indices[i + 1] % 2 == 0;
+        if (starts_a_side) result.insert(result.end(), {volume.indices[i], volume.indices[i + 1]});
+    }
+    return result;
+}
+
+}  // namespace
+
+struct ShadowPass::State {
+    gpu::Device* device = nullptr;
+    ShadowPassDesc desc;
+    gpu::BindGroupLayout layout;
+    gpu::Shader vertex;
+    std::array<gpu::RenderPipeline, 8> pipelines;
+    std::uint32_t uniform_stride = 256;
+    gpu::Buffer uniforms;
+    std::uint64_t uniforms_size = 0;
+    gpu::BindGroup bind_group;
+
+    struct MeshVertices {
+        gpu::Buffer buffer;
+        std::uint64_t used = 0;
+    };
+    struct VolumeRun {
+        internal::IndexRun run;
+        std::uint64_t used = 0;
+    };
+    std::unordered_map<std::uint64_t, MeshVertices> meshes;  // by ShadowMesh::id
+    std::unordered_map<std::uint64_t, VolumeRun> volumes;    // by revision
+    std::vector<gpu::Buffer> extruded;                       // by draw, on the CPU path
+    std::vector<std::uint64_t> extruded_sizes;
+    internal::IndexArena indices;
+    std::uint64_t generation = 0;
+
+    struct Recorded {
+        gpu::BufferId vertices;
+        internal::IndexRun run;
+        bool exchanged = false;
+        bool unclipped = false;
+        Technique technique = Technique::DepthFail;
+        std::vector<Run> runs;
+        std::shared_ptr<const shadows::Volume> volume;
+    };
+    std::vector<Recorded> recorded;
+    std::vector<shadows::LightDraws> lights;
+    PassStats stats;
+
+    State(gpu::Device& d, const ShadowPassDesc& description)
+        : device(&d), desc(description), indices(d) {}
+
+    Status create_pipelines();
+    [[nodiscard]] gpu::VertexBufferLayout vertex_layout() const;
+    Status write_uniforms(const shadows::DrawList& list, const shadows::View& view);
+    Result<gpu::BufferId> vertices_of(const shadows::ShadowMesh& mesh);
+    Result<gpu::BufferId> extruded_vertices_of(std::size_t index, const shadows::VolumeDraw& draw);
+    Result<internal::IndexRun> indices_of(const shadows::VolumeDraw& draw);
+    void free_unused();
+};
+
+gpu::VertexBufferLayout ShadowPass::State::vertex_layout() const {
+    const bool on_cpu = desc.extrusion == ExtrusionPath::Cpu;
+    return {.array_stride = on_cpu ? sizeof(glm::vec4) : sizeof(glm::vec3),
+            .attributes = {
+                {.format = on_cpu ? gpu::VertexFormat::Float32x4 : gpu::VertexFormat::Float32x3}}};
+}
+
+Status ShadowPass::State::create_pipelines() {
+    auto made_layout = device->create_bind_group_layout(
+        {.label = "shadow volume",
+         .entries = {{.binding = 0,
+                      .visibility = gpu::ShaderStage::Vertex,
+                      .has_dynamic_offset = true,
+                      .min_binding_size = sizeof(VolumeUniforms)}}});
+    if (!made_layout) return forward_error(made_layout);
+    layout = std::move(*made_layout);
+
+    const bool on_cpu = desc.extrusion == ExtrusionPath::Cpu;
+    auto made_vertex = device->create_shader(
+        {.label = "shadow volume vertices",
+         .stage = gpu::ShaderStage::Vertex,
+         .source = on_cpu ? shaders::volume_extruded_vert : shaders::volume_vert});
+    if (!made_vertex) return forward_error(made_vertex);
+    vertex = std::move(*made_vertex);
+    auto fragment = device->create_shader({.label = "shadow volume fragments",
+                                           .stage = gpu::ShaderStage::Fragment,
+                                           .source = shaders::volume_frag});
+    if (!fragment) return forward_error(fragment);
+
+    gpu::RenderPipelineDesc pipeline;
+    pipeline.bind_group_layouts = {layout};
+    pipeline.vertex = vertex;
+    pipeline.fragment = *fragment;
+    pipeline.vertex_buffers = {vertex_layout()};
+    for (const gpu::Format format : desc.color_formats) {
+        pipeline.targets.push_back({.format = format, .write_mask = gpu::ColorWrite::None});
+    }
+    pipeline.sample_count = desc.sample_count;
+    for (const bool unclipped : {false, true}) {
+        if (unclipped && !device->caps().features.unclipped_depth) continue;
+        for (const bool exchanged : {false, true}) {
+            for (const Technique technique : {Technique::DepthPass, Technique::DepthFail}) {
+                pipeline.label = std::string("shadow volume, ") +
+                                 (technique == Technique::DepthPass ? "depth-pass" : "depth-fail") +
+                                 (exchanged ? ", exchanged" : "") +
+                                 (unclipped ? ", unclipped" : "");
+                pipeline.primitive.unclipped_depth = unclipped;
+                pipeline.depth_stencil = counting(desc, technique, exchanged);
+                auto made = device->create_render_pipeline(pipeline);
+                if (!made) return forward_error(made);
+                pipelines[pipeline_index(technique, exchanged, unclipped)] = std::move(*made);
+            }
+        }
+    }
+    return {};
+}
+
+Status ShadowPass::State::write_uniforms(const shadows::DrawList& list, const shadows::View& view) {
+    if (list.draws.empty()) return {};
+    const std::uint64_t needed = list.draws.size() * std::uint64_t{uniform_stride};
+    if (needed > uniforms_size) {
+        const std::uint64_t size = needed + needed / 2 / uniform_stride * uniform_stride;
+        bind_group.reset();
+        auto buffer =
+            device->create_buffer({.label = "shadow volume matrices",
+                                   .size = size,
+                                   .usage = gpu::BufferUsage::Uniform | gpu::BufferUsage::CopyDst});
+        if (!buffer) return forward_error(buffer);
+        uniforms = std::move(*buffer);
+        uniforms_size = size;
+        auto group = device->create_bind_group(
+            {.label = "shadow volume matrices",
+             .layout = layout,
+             .entries = {{.binding = 0, .buffer = uniforms, .size = sizeof(VolumeUniforms)}}});
+        if (!group) return forward_error(group);
+        bind_group = std::move(*group);
+    }
+    std::vector<std::byte> bytes(needed);
+    const glm::dmat4 clip_from_world = view.clip_from_world();
+    for (std::size_t i = 0; i < list.draws.size(); ++i) {
+        const shadows::VolumeDraw& draw = list.draws[i];
+        // Products in double, rounded once: the scene must be drawn with these very bits.
+        const VolumeUniforms u{glm::mat4(clip_from_world * draw.world_from_local),
+                               glm::mat4(clip_from_world * draw.world_from_far),
+                               draw.extrusion.offset,
+                               glm::vec4(draw.extrusion.scale, 0.0F, 0.0F, 0.0F)};
+        std::memcpy(bytes.data() + i * uniform_stride, &u, sizeof u);
+    }
+    stats.uploaded_bytes += needed;
+    return device->write_buffer(uniforms, 0, bytes);
+}
+
+Result<gpu::BufferId> ShadowPass::State::vertices_of(const shadows::ShadowMesh& mesh) {
+    const auto found = meshes.find(mesh.id());
+    if (found != meshes.end()) {
+        found->second.used = generation;
+        return found->second.buffer.id();
+    }
+    std::vector<glm::vec3> doubled;
+    doubled.reserve(mesh.positions().size() * 2);
+    for (const glm::vec3& p : mesh.positions()) doubled.insert(doubled.end(), 2, p);
+    const auto bytes = std::as_bytes(std::span(doubled));
+    auto buffer =
+        device->create_buffer({.label = "shadow volume vertices",
+                               .size = bytes.size(),
+                               .usage = gpu::BufferUsage::Vertex | gpu::BufferUsage::CopyDst});
+    if (!buffer) return forward_error(buffer);
+    if (const Status written = device->write_buffer(*buffer, 0, bytes); !written)
+        return forward_error(written);
+    stats.uploaded_bytes += bytes.size();
+    const gpu::BufferId id = buffer->id();
+    meshes.emplace(mesh.id(), MeshVertices{std::move(*buffer), generation});
+    return id;
+}
+
+Result<gpu::BufferId> ShadowPass::State::extruded_vertices_of(std::size_t index,
+                                                              const shadows::VolumeDraw& draw) {
+    std::vector<glm::vec4> far_vertices;
+    shadows::extrude(draw.mesh->positions(), draw.extrusion, far_vertices);
+    std::vector<glm::vec4> vertices;
+    vertices.reserve(far_vertices.size() * 2);
+    for (std::size_t v = 0; v < far_vertices.size(); ++v) {
+        vertices.emplace_back(draw.mesh->positions()[v], 1.0F);
+        vertices.push_back(far_vertices[v]);
+    }
+    const auto bytes = std::as_bytes(std::span(vertices));
+    if (extruded.size() <= index) {
+        extruded.resize(index + 1);
+        extruded_sizes.resize(index + 1, 0);
+    }
+    if (extruded_sizes[index] < bytes.size()) {
+        auto buffer =
+            device->create_buffer({.label = "extruded shadow volume vertices",
+                                   .size = bytes.size(),
+                                   .usage = gpu::BufferUsage::Vertex | gpu::BufferUsage::CopyDst});
+        if (!buffer) return forward_error(buffer);
+        extruded[index] = std::move(*buffer);
+        extruded_sizes[index] = bytes.size();
+    }
+    if (const Status written = device->write_buffer(extruded[index], 0, bytes); !written) {
+        return forward_error(written);
+    }
+    stats.uploaded_bytes += bytes.size();
+    return extruded[index].id();
+}
+
+Result<internal::IndexRun> ShadowPass::State::indices_of(const shadows::VolumeDraw& draw) {
+    const auto found = volumes.find(draw.revision);
+    if (found != volumes.end()) {
+        found->second.used = generation;
+        return found->second.run;
+    }
+    auto run = desc.silhouette_lines ? indices.upload(with_silhouette_lines(*draw.volume))
+                                     : indices.upload(draw.volume->indices);
+    if (!run) return run;
+    stats.uploaded_bytes += std::uint64_t{run->count} * sizeof(std::uint32_t);
+    volumes.emplace(draw.revision, VolumeRun{*run, generation});
+    return run;
+}
+
+void ShadowPass::State::free_unused() {
+    std::erase_if(volumes, [&](const auto& entry) {
+        const bool unused = entry.second.used != generation;
+        if (unused) indices.free(entry.second.run);
+        return unused;
+    });
+    // A mesh may be out of range for a while and come back; its vertices are kept for a few seconds
+    // of frames.
+    constexpr std::uint64_t patience = 300;
+    std::erase_if(meshes,
+                  [&](const auto& entry) { return entry.second.used + patience < generation; });
+}
+
+Result<ShadowPass> ShadowPass::create(gpu::Device& device, const ShadowPassDesc& desc) {
+    auto state = std::make_unique<State>(device, desc);
+    const std::uint32_t alignment = device.caps().limits.min_uniform_buffer_offset_alignment;
+    const auto size = static_cast<std::uint32_t>(sizeof(VolumeUniforms));
+    state->uniform_stride = (size + alignment - 1) / alignment * alignment;
+    if (const Status created = state->create_pipelines(); !created) return forward_error(created);
+    return ShadowPass(std::move(state));
+}
+
+ShadowPass::ShadowPass(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ShadowPass::ShadowPass(ShadowPass&&) noexcept = default;
+ShadowPass& ShadowPass::operator=(ShadowPass&&) noexcept = default;
+ShadowPass::~ShadowPass() = default;
+
+Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& view) {
+    State& s = *state_;
+    ++s.generation;
+    s.stats = {};
+    s.recorded.clear();
+    s.lights = list.lights;
+    // What changed frees its old indices first, so that the new ones find the room.
+    for (const shadows::VolumeDraw& draw : list.draws) {
+        if (const auto found = s.volumes.find(draw.revision); found != s.volumes.end()) {
+            found->second.used = s.generation;
+        }
+    }
+    s.free_unused();
+    const bool finite = view.projection != shadows::ProjectionKind::InfinitePerspective;
+    const bool unclipped = finite && s.device->caps().features.unclipped_depth;
+    for (std::size_t i = 0; i < list.draws.size(); ++i) {
+        const shadows::VolumeDraw& draw = list.draws[i];
+        if (finite && !unclipped && draw.technique == Technique::DepthFail) {
+            return fail(ErrorCode::Unsupported,
+                        "Caster " + std::to_string(draw.caster) + " needs depth-fail for light " +
+                            std::to_string(draw.light) +
+                            " under a projection with a far plane, which would cut its volume off: "
+                            "the adapter " +
+                            s.device->caps().adapter +
+                            " lacks unclipped depth. Use an infinite perspective.");
+        }
+        auto vertices = s.desc.extrusion == ExtrusionPath::Cpu ? s.extruded_vertices_of(i, draw)
+                                                               : s.vertices_of(*draw.mesh);
+        if (!vertices) return forward_error(vertices);
+        auto run = s.indices_of(draw);
+        if (!run) return forward_error(run);
+        s.recorded.push_back({*vertices, *run, draw.mirrored, unclipped, draw.technique,
+                              runs_of(draw), draw.volume});
+        s.stats.draw_calls += s.recorded.back().runs.size();
+    }
+    if (const Status written = s.write_uniforms(list, view); !written) return written;
+    s.stats.index_bytes_held = s.indices.indices_in_use() * sizeof(std::uint32_t);
+    return {};
+}
+
+void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) const {
+    const State& s = *state_;
+    const shadows::LightDraws& of_light = s.lights[light];
+    encoder.push_debug_group("shadow volumes");
+    const gpu::RenderPipeline* current = nullptr;
+    for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
+        const State::Recorded& volume = s.recorded[i];
+        const std::uint32_t offset = i * s.uniform_stride;
+        encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
+        encoder.set_vertex_buffer(0, volume.vertices);
+        encoder.set_index_buffer(s.indices.buffer(volume.run.chunk), gpu::IndexFormat::Uint32);
+        for (const Run& run : volume.runs) {
+            const auto& pipeline = s.pipelines[pipeline_index(
+                volume.technique, volume.exchanged != run.flipped, volume.unclipped)];
+            if (&pipeline != current) encoder.set_pipeline(pipeline);
+            current = &pipeline;
+            encoder.draw_indexed(run.count, 1, volume.run.first + run.first);
+        }
+    }
+    encoder.pop_debug_group();
+}
+
+void ShadowPass::record_part(gpu::RenderPassEncoder& encoder, std::size_t light, Part part,
+                             gpu::RenderPipelineId pipeline) const {
+    const State& s = *state_;
+    const shadows::LightDraws& of_light = s.lights[light];
+    encoder.set_pipeline(pipeline);
+    for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
+        const State::Recorded& recorded = s.recorded[i];
+        const shadows::Volume& volume = *recorded.volume;
+        const std::uint32_t offset = i * s.uniform_stride;
+        encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
+        encoder.set_vertex_buffer(0, recorded.vertices);
+        encoder.set_index_buffer(s.indices.buffer(recorded.run.chunk), gpu::IndexFormat::Uint32);
+        const auto draw = [&](std::uint32_t first, std::uint32_t count) {
+            if (count > 0) encoder.draw_indexed(count, 1, recorded.run.first + first);
+        };
+        if (part == Part::Sides) draw(volume.sides.first, volume.sides.count);
+        if (part == Part::Caps) {
+            draw(volume.near_cap.first, volume.near_cap.count);
+            draw(volume.near_cap_flipped.first, volume.near_cap_flipped.count);
+        }
+        if (part == Part::Silhouettes) {
+            const auto lines = static_cast<std::uint32_t>(volume.indices.size());
+            draw(lines, recorded.run.count - lines);
+        }
+    }
+}
+
+gpu::BindGroupLayoutId ShadowPass::bind_group_layout() const { return state_->layout; }
+gpu::ShaderId ShadowPass::vertex_shader() const { return state_->vertex; }
+gpu::VertexBufferLayout ShadowPass::vertex_layout() const { return state_->vertex_layout(); }
+
+const PassStats& ShadowPass::stats() const { return state_->stats; }
+
+}  // namespace gnomon::shadow_pass

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+//
+// ShadowPass: turns a DrawList into GPU commands. It uploads the indices that changed and records,
+// per light, the stencil counting of its volumes into a render pass of the caller's. Where the
+// count is zero afterwards, the light arrives. It owns no target, draws no scene and knows no
+// light's colour.
+//
+//     pass.prepare(list, view);                          // once a frame
+//     for (size_t i = 0; i < list.lights.size(); ++i) {
+//         auto encoder = commands.begin_render_pass(…);  // stencil cleared to 0, the scene's depth
+//         loaded pass.record(encoder, i); …draw the scene lit, stencil compare Equal to 0, depth
+//         compare Equal…
+//     }
+//
+// Depth is reversed (1 near, 0 far, cleared to 0) and must come from the same position function and
+// matrix product: clip_from_world(view) * world_from_local in double precision, rounded once
+// (docs/conventions.md).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <gnomon/core/result.hpp>
+#include <gnomon/gpu/device.hpp>
+#include <gnomon/shadows/shadow_system.hpp>
+#include <gnomon/shadows/view.hpp>
+
+namespace gnomon::shadow_pass {
+
+/// Where far vertices are made.
+enum class ExtrusionPath : std::uint8_t {
+    VertexShader,  ///< a moving light uploads indices alone
+    Cpu,  ///< vertices are uploaded every frame; for tests, and hosts whose vertex stage is not
+          ///< theirs
+};
+
+struct ShadowPassDesc {
+    gpu::Format depth_stencil_format = gpu::Format::Depth32FloatStencil8;
+    /// "In front of", strictly: caps lie on surfaces, and equality must count as behind. Less where
+    /// a host's depth runs forward.
+    gpu::Compare depth_compare = gpu::Compare::Greater;
+    std::uint32_t sample_count = 1;
+    std::vector<gpu::Format> color_formats =
+        {};  ///< of the render pass that volumes are drawn in; none is written
+    ExtrusionPath extrusion = ExtrusionPath::VertexShader;
+    bool silhouette_lines =
+        false;  ///< also uploads silhouette edges as lines, for Part::Silhouettes
+};
+
+/// What a debug view may draw of a volume.
+enum class Part : std::uint8_t {
+    Sides,        ///< triangles
+    Caps,         ///< near caps, triangles
+    Silhouettes,  ///< lines
+};
+
+/// Of the last prepare().
+struct PassStats {
+    std::uint64_t uploaded_bytes = 0;
+    std::uint64_t draw_calls = 0;        ///< that record() makes for all lights together
+    std::uint64_t index_bytes_held = 0;  ///< index memory in use
+};
+
+class ShadowPass {
+public:
+    /// The device must outlive the pass. Fails as the device's create functions do.
+    [[nodiscard]] static Result<ShadowPass> create(gpu::Device& device, const ShadowPassDesc& desc);
+    ShadowPass(ShadowPass&&) noexcept;
+    ShadowPass& operator=(ShadowPass&&) noexcept;
+    ~ShadowPass();
+
+    /// Uploads what the list needs and the GPU does not have: nothing where nothing moved but 256
+    /// bytes a volume of matrices. The list is remembered until the next call.
+    [[nodiscard]] Status prepare(const shadows::DrawList& list, const shadows::View& view);
+
+    /// Records the volumes of list.lights[light]. The pass's stencil must have been cleared to 0;
+    /// its depth buffer is read, not written. Leaves pipeline, bind group 0, vertex slot 0, index
+    /// buffer and stencil reference changed.
+    void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
+
+    // For debug views: draws one part of a light's volumes with a pipeline of the caller's, whose
+    // bind group 0 has bind_group_layout(), whose vertex stage is vertex_shader() and whose vertex
+    // slot 0 is vertex_layout().
+    void record_part(gpu::RenderPassEncoder& encoder, std::size_t light, Part part,
+                     gpu::RenderPipelineId pipeline) const;
+    [[nodiscard]] gpu::BindGroupLayoutId bind_group_layout() const;
+    [[nodiscard]] gpu::ShaderId vertex_shader() const;
+    [[nodiscard]] gpu::VertexBufferLayout vertex_layout() const;
+
+    [[nodiscard]] const PassStats& stats() const;
+
+private:
+    struct State;
+    explicit ShadowPass(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace gnomon::shadow_pass

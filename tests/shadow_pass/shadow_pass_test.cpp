@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+//
+// What the pass uploads and records, on a device that draws nothing.
+#include <gnomon/shadow_pass/shadow_pass.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <gnomon/gpu/fault_backend.hpp>
+#include <gnomon/gpu/null_backend.hpp>
+
+namespace gnomon::shadow_pass {
+namespace {
+
+std::shared_ptr<const shadows::ShadowMesh> tetrahedron() {
+    static const std::array<glm::vec3, 4> positions{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    static const std::array<std::uint32_t, 12> indices{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    return *shadows::ShadowMesh::build(
+        {.positions = reinterpret_cast<const std::byte*>(positions.data()),
+         .vertex_count = positions.size(),
+         .indices = indices});
+}
+
+shadows::View perspective_view() {
+    shadows::View view;
+    view.view_from_world = shadows::look_at({0, 1, 6}, {0, 0, 0}, {0, 1, 0});
+    view.clip_from_view = shadows::infinite_perspective(0.8, 1.5, 0.01);
+    return view;
+}
+
+struct World {
+    std::shared_ptr<const shadows::ShadowMesh> mesh = tetrahedron();
+    shadows::ShadowSystem system = *shadows::ShadowSystem::create();
+    double angle = 0.0;
+    glm::dvec4 light{2.0, 4.0, 1.0, 1.0};
+    int casters = 5;
+
+    shadows::DrawList frame(const shadows::View& view) {
+        auto frame = system.begin_frame();
+        for (int i = 0; i < casters; ++i) {
+            glm::dmat4 pose = glm::translate(glm::dmat4(1.0), glm::dvec3(i, 0, 0));
+            if (i == 0) pose = glm::rotate(pose, angle, glm::dvec3(0, 1, 0));
+            frame.caster(
+                {.key = static_cast<std::uint64_t>(i), .mesh = mesh, .world_from_local = pose});
+        }
+        frame.light({.key = 1, .position_world = light});
+        return std::move(frame).finish(view);
+    }
+};
+
+TEST(ShadowPass, uploads_matrices_alone_when_nothing_moved) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world;
+    const shadows::View view = perspective_view();
+    ASSERT_TRUE(pass.prepare(world.frame(view), view));
+    const std::uint64_t first = pass.stats().uploaded_bytes;
+    const std::uint64_t held = pass.stats().index_bytes_held;
+    ASSERT_TRUE(pass.prepare(world.frame(view), view));
+    EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U);
+    EXPECT_GT(first, pass.stats().uploaded_bytes);
+    EXPECT_EQ(pass.stats().index_bytes_held, held);
+}
+
+TEST(ShadowPass, uploads_the_indices_of_what_turned) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world;
+    const shadows::View view = perspective_view();
+    ASSERT_TRUE(pass.prepare(world.frame(view), view));
+    world.angle = 2.0;
+    const shadows::DrawList list = world.frame(view);
+    ASSERT_EQ(list.stats.pairs_redetected, 1U);
+    ASSERT_TRUE(pass.prepare(list, view));
+    EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U + list.draws[0].volume->indices.size() * 4);
+}
+
+TEST(ShadowPass, frees_the_indices_of_what_is_gone) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world;
+    const shadows::View view = perspective_view();
+    ASSERT_TRUE(pass.prepare(world.frame(view), view));
+    world.casters = 0;
+    ASSERT_TRUE(pass.prepare(world.frame(view), view));
+    EXPECT_EQ(pass.stats().index_bytes_held, 0U);
+    EXPECT_EQ(pass.stats().draw_calls, 0U);
+}
+
+// Records one light into a pass of its own and counts what the device was asked to draw.
+std::uint64_t recorded_draws(gpu::Device& device, const ShadowPass& pass) {
+    auto target = device.create_texture({.label = "depth-stencil",
+                                         .width = 8,
+                                         .height = 8,
+                                         .format = gpu::Format::Depth32FloatStencil8,
+                                         .usage = gpu::TextureUsage::RenderAttachment});
+    auto encoder = device.create_command_encoder("test");
+    {
+        auto recorder = encoder.begin_render_pass(
+            {.label = "test",
+             .depth_stencil = gpu::DepthStencilAttachment{.texture = *target,
+                                                          .depth_load_op = gpu::LoadOp::Clear,
+                                                          .stencil_load_op = gpu::LoadOp::Clear}});
+        pass.record(recorder, 0);
+    }
+    const auto commands = encoder.finish();
+    EXPECT_TRUE(commands) << commands.error().message;
+    const std::uint64_t before = device.counters().draw_calls;
+    EXPECT_TRUE(device.submit(*commands));
+    return device.counters().draw_calls - before;
+}
+
+TEST(ShadowPass, records_one_draw_a_volume_and_as_many_as_it_says) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world;
+    const shadows::View view = perspective_view();
+    ASSERT_TRUE(pass.prepare(world.frame(view), view));
+    EXPECT_EQ(recorded_draws(device, pass), 5U);
+    EXPECT_EQ(pass.stats().draw_calls, 5U);
+}
+
+TEST(ShadowPass, refuses_depth_fail_under_a_far_plane_without_unclipped_depth) {
+    gpu::NullBackendOptions options;
+    options.features.unclipped_depth = false;
+    gpu::Device device(gpu::create_null_backend(options));
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world;
+    world.light = {0.0, 0.0, 1.0, 0.0};  // from behind the eye: its volumes may hold it
+    shadows::View view = perspective_view();
+    view.clip_from_view = shadows::orthographic(3.0, 2.0, 7.0, 20.0);
+    view.projection = shadows::ProjectionKind::Orthographic;
+    const Status refused = pass.prepare(world.frame(view), view);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
+    EXPECT_NE(refused.error().message.find("lacks unclipped depth"), std::string::npos)
+        << refused.error().message;
+}
+
+// Every fallible call of the device fails once: each failure comes back as a Result and nothing is
+// left behind.
+TEST(ShadowPass, survives_a_device_that_fails_anywhere) {
+    const shadows::View view = perspective_view();
+    bool succeeded = false;
+    for (std::uint64_t fail_at = 1; !succeeded && fail_at < 200; ++fail_at) {
+        gpu::FaultPlan plan{.fail_at = fail_at};
+        gpu::Device device(gpu::create_fault_backend(gpu::create_null_backend(), plan));
+        {
+            World world;
+            auto pass = ShadowPass::create(device, {});
+            succeeded = pass.has_value();
+            if (pass) {
+                const Status prepared = pass->prepare(world.frame(view), view);
+                succeeded = prepared.has_value();
+                // A failed frame does no harm to the next one.
+                if (!prepared) {
+                    EXPECT_TRUE(pass->prepare(world.frame(view), view));
+                }
+            }
+            EXPECT_EQ(succeeded, plan.calls < fail_at);
+        }
+        EXPECT_EQ(device.counters().objects_alive, 0U) << "failing at call " << fail_at;
+    }
+    EXPECT_TRUE(succeeded);
+}
+
+}  // namespace
+}  // namespace gnomon::shadow_pass
