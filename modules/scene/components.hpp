@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+//
+// The components of gnomon's own scenes. Metres, seconds, radians; right-handed, +Y up; cameras and
+// lights look along their own -Z, as in glTF.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <gnomon/scene/mesh.hpp>
+#include <gnomon/scene/registry.hpp>
+
+namespace gnomon::scene {
+
+struct Name {
+    std::string value;
+};
+
+struct Parent {
+    Entity value;
+};
+
+/// Pose relative to the parent (or the world): translation * rotation * scale, or any affine
+/// matrix.
+struct LocalTransform {
+    glm::dvec3 translation{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 scale{1.0};                            ///< may be negative or zero
+    std::optional<glm::dmat4> matrix = std::nullopt;  ///< used instead of the three above
+
+    [[nodiscard]] glm::dmat4 parent_from_local() const;
+};
+
+/// Written by update_world_transforms (transforms.hpp).
+struct WorldTransform {
+    glm::dmat4 world_from_local{1.0};
+};
+
+struct MeshInstance {
+    std::shared_ptr<const Mesh> mesh;
+};
+
+struct Caster {};    ///< tag: its mesh casts shadows
+struct Receiver {};  ///< tag: its mesh is drawn
+
+struct PointLight {
+    glm::vec3 color{1.0F};                         ///< linear
+    float intensity = 1.0F;                        ///< candela
+    std::optional<double> range_m = std::nullopt;  ///< no light beyond it
+};
+struct SpotLight {
+    glm::vec3 color{1.0F};
+    float intensity = 1.0F;  ///< candela
+    std::optional<double> range_m = std::nullopt;
+    float inner_cone_rad = 0.0F;
+    float outer_cone_rad = 0.785398F;
+};
+struct DirectionalLight {
+    glm::vec3 color{1.0F};
+    float intensity = 1.0F;  ///< lux
+};
+
+struct PerspectiveCamera {
+    double fovy_rad = 0.785398;
+    double near_m = 0.01;  ///< there is no far plane: gnomon's perspective is infinite
+};
+struct OrthographicCamera {
+    double half_width_m = 1.0;
+    double half_height_m = 1.0;
+    double near_m = 0.0;
+    double far_m = 100.0;
+};
+struct Camera {
+    std::variant<PerspectiveCamera, OrthographicCamera> projection = PerspectiveCamera{};
+};
+
+}  // namespace gnomon::scene

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Reads glTF 2.0 (.glb and .gltf) into a Scene: complete for geometry, as far as shadows need for
+// the rest.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include <gnomon/core/result.hpp>
+#include <gnomon/scene/scene.hpp>
+
+namespace gnomon::scene {
+
+struct GltfOptions {
+    int scene = -1;  ///< which of the file's scenes; -1: its default, else the first
+};
+
+/// Every mesh node becomes a Caster and a Receiver; lights and cameras become components. What is
+/// skipped (points, lines, images that cannot be decoded) is named in Scene::messages; extensions
+/// that the file requires and this reader does not know are refused. Skinned meshes come in their
+/// rest pose, as entities of their own at the top of the scene. Files beside this one are read only
+/// from its folder and below. Fails with ErrorCode::InvalidInput or Io and one sentence that names
+/// the file, the place in it, the value and the limit.
+[[nodiscard]] Result<Scene> load_gltf(const std::filesystem::path& path,
+                                      const GltfOptions& options = {});
+
+/// The same from memory; external buffers are then refused. `name` stands for the file in messages.
+[[nodiscard]] Result<Scene> load_glb(std::span<const std::byte> bytes, const std::string& name,
+                                     const GltfOptions& options = {});
+
+}  // namespace gnomon::scene

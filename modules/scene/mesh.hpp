@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+//
+// Mesh, material, image: what a scene is drawn with, as plain arrays. Nothing here knows of a GPU
+// or of shadows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace gnomon::scene {
+
+struct Image {
+    std::string name;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> rgba;  ///< 4 bytes a pixel, sRGB-encoded, row 0 on top
+};
+
+enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
+
+struct Material {
+    std::string name;
+    glm::vec4 base_color{1.0F};  ///< linear
+    float metallic = 0.0F;
+    float roughness = 0.8F;
+    glm::vec3 emissive{0.0F};                       ///< linear
+    std::shared_ptr<const Image> base_color_image;  ///< may be null
+    AlphaMode alpha_mode = AlphaMode::Opaque;
+    float alpha_cutoff = 0.5F;
+    bool double_sided = false;
+};
+
+/// A run of triangles that share a material.
+struct SubMesh {
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+    std::uint32_t material = 0;  ///< index into Scene::materials
+};
+
+/// Triangles of one mesh, all its primitives together. Immutable once it is in a scene; nodes share
+/// it.
+struct Mesh {
+    std::string name;
+    /// Where the origin of `positions` lies in the mesh's own space: true position = origin +
+    /// position, exactly. Not zero only for meshes modelled far from their origin, whose
+    /// coordinates would cancel badly in single precision.
+    glm::dvec3 origin{0.0};
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3>
+        normals;  ///< unit; one per position (made from the faces where a file has none)
+    std::vector<glm::vec2> texcoords;    ///< one per position; empty when no primitive has any
+    std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
+    std::vector<SubMesh> sub_meshes;     ///< cover `indices` without gap or overlap, in order
+
+    [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
+};
+
+}  // namespace gnomon::scene

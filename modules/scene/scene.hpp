@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+//
+// Scene: a registry and the assets its components share.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gnomon/scene/components.hpp>
+#include <gnomon/scene/mesh.hpp>
+#include <gnomon/scene/registry.hpp>
+
+namespace gnomon::scene {
+
+struct Scene {
+    Registry registry;
+    std::vector<Material>
+        materials;  ///< at least one once anything is drawn: index 0 is the default
+    std::vector<std::string> messages;  ///< what a reader skipped or changed, one sentence each
+
+    /// An entity with a name, a local and a world transform; the latter from the parent's as it is
+    /// now.
+    Entity create_node(std::string name, const LocalTransform& local = {},
+                       std::optional<Entity> parent = std::nullopt);
+};
+
+/// Smallest axis-aligned box.
+struct Bounds {
+    glm::dvec3 min{std::numeric_limits<double>::infinity()};
+    glm::dvec3 max{-std::numeric_limits<double>::infinity()};
+
+    [[nodiscard]] bool empty() const { return !(min.x <= max.x); }
+    [[nodiscard]] glm::dvec3 center() const { return (min + max) * 0.5; }
+    [[nodiscard]] double diagonal() const { return empty() ? 0.0 : glm::length(max - min); }
+    void include(const glm::dvec3& p) {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+};
+
+/// World bounds of everything that has a mesh: exact over the vertices. Needs up-to-date world
+/// transforms.
+[[nodiscard]] Bounds world_bounds(const Scene& scene);
+
+/// The matrix that takes Mesh::positions to the world: the node's, with the mesh's own origin
+/// folded in.
+[[nodiscard]] glm::dmat4 world_from_mesh(const WorldTransform& node, const Mesh& mesh);
+
+}  // namespace gnomon::scene

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// From gnomon's own registry into a ShadowSystem's frame: a plain loop without privileges. What an
+// embedder writes for their own ECS looks the same.
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+
+#include <gnomon/core/result.hpp>
+#include <gnomon/scene/scene.hpp>
+#include <gnomon/shadows/shadow_system.hpp>
+
+namespace gnomon::scene {
+
+/// The light of an entity as shadows see it, or nothing where it has none. Needs an up-to-date
+/// world transform.
+[[nodiscard]] std::optional<shadows::Light> shadow_light(const Registry& registry, Entity entity);
+
+class ShadowAdapter {
+public:
+    /// Submits every Caster and every light. Shadow meshes are made the first time a mesh is met
+    /// and kept while it lives. `culled`: back faces are not drawn, so depth-pass needs caps. Fails
+    /// when a mesh is not acceptable to ShadowMesh::build. Cost: a look-up a caster.
+    [[nodiscard]] Status submit(const Scene& scene, shadows::ShadowSystem::Frame& frame,
+                                bool culled = false);
+
+    /// The shadow mesh of a mesh: one for all its nodes.
+    [[nodiscard]] Result<std::shared_ptr<const shadows::ShadowMesh>> shadow_mesh(
+        const std::shared_ptr<const Mesh>& mesh);
+
+private:
+    struct Known {
+        std::weak_ptr<const Mesh> mesh;  // tells a new mesh at an old address apart
+        std::shared_ptr<const shadows::ShadowMesh> shadow_mesh;
+    };
+    std::unordered_map<const Mesh*, Known> known_;
+};
+
+}  // namespace gnomon::scene
