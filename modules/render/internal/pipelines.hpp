@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// Every pipeline of the renderer, made once. Bind groups: 0 the draw (or the volume), 1 the frame,
+// light or overlay colour, 2 the material.
+#pragma once
+
+#include <array>
+
+#include <gnomon/gpu/device.hpp>
+#include <gnomon/render/renderer.hpp>
+#include <gnomon/shadow_pass/shadow_pass.hpp>
+
+namespace gnomon::render::internal {
+
+/// Which triangles a geometry pipeline leaves out. A mirrored instance turns its winding over.
+enum class Culling : std::uint8_t { None, Back, BackMirrored };
+
+/// A pipeline that draws the scene, in each way it may have to. Under a projection with a far plane
+/// volumes are drawn without clipping; caps lie on surfaces bit for bit only if the scene is drawn
+/// the same way.
+struct GeometryPipelines {
+    std::array<gpu::RenderPipeline, 3> clipped;    // by Culling
+    std::array<gpu::RenderPipeline, 3> unclipped;  // where the adapter can
+
+    [[nodiscard]] gpu::RenderPipelineId get(Culling culling, bool is_unclipped) const {
+        return (is_unclipped ? unclipped : clipped)[static_cast<std::size_t>(culling)];
+    }
+};
+
+struct Pipelines {
+    gpu::BindGroupLayout draw_layout;     // binding 1, dynamic
+    gpu::BindGroupLayout frame_layout;    // binding 0, dynamic
+    gpu::BindGroupLayout overlay_layout;  // binding 4, dynamic
+    gpu::BindGroupLayout tone_map_layout;
+    GeometryPipelines ambient;
+    GeometryPipelines light;
+    gpu::RenderPipeline tone_map;
+    gpu::RenderPipeline wireframe;
+    gpu::RenderPipeline volume_triangles;
+    gpu::RenderPipeline volume_lines;
+    gpu::RenderPipeline count;
+};
+
+[[nodiscard]] Result<Pipelines> create_pipelines(gpu::Device& device, const RendererDesc& desc,
+                                                 gpu::BindGroupLayoutId material_layout,
+                                                 const shadow_pass::ShadowPass& shadows);
+
+}  // namespace gnomon::render::internal

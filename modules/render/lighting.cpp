@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "internal/lighting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::render::internal {
+
+namespace {
+
+float perspective_flag(const shadows::View& view) {
+    return view.projection == shadows::ProjectionKind::Orthographic ? 0.0F : 1.0F;
+}
+
+// Metres in front of the eye between the near and the far plane. Everything where clipping does it.
+glm::vec4 depth_range(const shadows::View& view) {
+    if (view.projection == shadows::ProjectionKind::InfinitePerspective) {
+        constexpr float all = std::numeric_limits<float>::max();
+        return {-all, all, 0.0F, 0.0F};
+    }
+    const auto depth = [&](const glm::dvec3& p) {
+        return static_cast<float>(-(view.view_from_world * glm::dvec4(p, 1.0)).z);
+    };
+    return {depth(near_corners(view)[0]), depth(far_corners(view)[0]), 0.0F, 0.0F};
+}
+
+}  // namespace
+
+std::vector<FrameLight> frame_lights(const scene::Scene& scene, const scene::Bounds& bounds,
+                                     std::span<const shadows::LightDraws> lights,
+                                     const shadows::View& view) {
+    const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : bounds.center();
+    const double radius = std::max(bounds.diagonal() * 0.5, 1e-30);
+    std::vector<FrameLight> result;
+    std::vector<double> illuminance;  // of the scene, in lux
+    for (const shadows::LightDraws& drawn : lights) {
+        const scene::Entity entity = scene::Entity::from_key(drawn.light);
+        const glm::dmat4& world =
+            scene.registry.get<scene::WorldTransform>(entity).world_from_local;
+        FrameLight light;
+        light.uniforms.spot_axis = glm::vec4(0.0F, 0.0F, 0.0F, -2.0F);
+        light.uniforms.spot_range = glm::vec4(0.0F);
+        light.uniforms.depth_range = depth_range(view);
+        glm::vec3 color(1.0F);
+        float intensity = 1.0F;
+        if (const auto* sun = scene.registry.try_get<scene::DirectionalLight>(entity)) {
+            light.position_world = glm::dvec4(glm::normalize(glm::dvec3(world[2])), 0.0);
+            color = sun->color;
+            intensity = sun->intensity;
+            illuminance.push_back(static_cast<double>(intensity));
+        } else {
+            light.position_world = glm::dvec4(glm::dvec3(world[3]), 1.0);
+            std::optional<double> range;
+            if (const auto* point = scene.registry.try_get<scene::PointLight>(entity)) {
+                color = point->color;
+                intensity = point->intensity;
+                range = point->range_m;
+            } else {
+                const auto& spot = scene.registry.get<scene::SpotLight>(entity);
+                color = spot.color;
+                intensity = spot.intensity;
+                range = spot.range_m;
+                const glm::dvec3 axis = -glm::normalize(glm::dvec3(world[2]));
+                light.uniforms.spot_axis =
+                    glm::vec4(glm::vec3(glm::dmat3(view.view_from_world) * axis),
+                              std::cos(spot.outer_cone_rad));
+                light.uniforms.spot_range.x = std::cos(spot.inner_cone_rad);
+            }
+            light.range_m = range.value_or(0.0);
+            light.uniforms.spot_range.y = static_cast<float>(light.range_m);
+            // What it is for lies at some distance: the scene's middle, but no farther than its
+            // range lets it reach.
+            double distance =
+                std::max(glm::length(center - glm::dvec3(light.position_world)), 0.25 * radius);
+            if (range) distance = std::min(distance, 0.4 * *range);
+            illuminance.push_back(static_cast<double>(intensity) / (distance * distance));
+        }
+        light.uniforms.light_view = glm::vec4(view.view_from_world * light.position_world);
+        light.uniforms.light_view.w = static_cast<float>(light.position_world.w);
+        light.uniforms.color = glm::vec4(color * intensity, perspective_flag(view));
+        result.push_back(light);
+    }
+    double strongest = 0.0;
+    double sum = 0.0;
+    for (const double e : illuminance) {
+        strongest = std::max(strongest, e);
+        sum += e;
+    }
+    const double together = strongest + 0.35 * (std::min(sum, 3.0 * strongest) - strongest);
+    const float exposure = together > 0.0 ? static_cast<float>(3.4 / together) : 0.0F;
+    for (FrameLight& light : result) {
+        light.uniforms.color.r *= exposure;
+        light.uniforms.color.g *= exposure;
+        light.uniforms.color.b *= exposure;
+    }
+    return result;
+}
+
+AmbientUniforms ambient_uniforms(const shadows::View& view) {
+    const glm::vec3 up(glm::dmat3(view.view_from_world) * glm::dvec3(0.0, 1.0, 0.0));
+    return {glm::vec4(0.135F, 0.165F, 0.215F, 0.0F), glm::vec4(0.075F, 0.066F, 0.058F, 0.0F),
+            glm::vec4(up, perspective_flag(view)), depth_range(view)};
+}
+
+}  // namespace gnomon::render::internal

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+//
+// Renderer: the small renderer that gnomon's own apps share. Depth and ambient first; then, light
+// by light, the volumes are counted into the stencil and the light is added where the count is
+// zero. A decent material, any number of lights, debug views of everything the shadows are made of.
+// It is not an engine; embedders use gnomon::shadow_pass.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include <gnomon/core/result.hpp>
+#include <gnomon/gpu/device.hpp>
+#include <gnomon/scene/scene.hpp>
+#include <gnomon/shadow_pass/shadow_pass.hpp>
+#include <gnomon/shadows/shadow_system.hpp>
+#include <gnomon/shadows/view.hpp>
+
+namespace gnomon::render {
+
+/// Debug views, any of them together.
+struct Overlays {
+    bool volumes = false;      ///< the volumes' sides, yellow
+    bool silhouettes = false;  ///< silhouette edges, pink
+    bool caps = false;         ///< near caps, turquoise
+    bool wireframe = false;    ///< all triangles of the scene
+    bool count = false;        ///< the stencil count as a heat map
+
+    [[nodiscard]] bool any() const { return volumes || silhouettes || caps || wireframe || count; }
+};
+
+struct RendererDesc {
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::uint32_t sample_count = 1;  ///< 1 or 4
+    gpu::Format depth_stencil_format = gpu::Format::Depth32FloatStencil8;
+    shadow_pass::ExtrusionPath extrusion = shadow_pass::ExtrusionPath::VertexShader;
+    gpu::Compare volume_depth_compare =
+        gpu::Compare::Greater;     ///< for experiments: anything else is wrong here
+    bool cull_back_faces = false;  ///< default: both sides of every triangle go into depth
+    Overlays overlays = {};
+};
+
+struct FrameInput {
+    const scene::Scene&
+        scene;  ///< world transforms up to date; upload() has seen its meshes and materials
+    const shadows::View& view;
+    const shadows::DrawList& shadows;
+    /// Called after each light's stencil count is complete (the device has been given the work):
+    /// what may be read then is depth_stencil(). The light is named by its place in shadows.lights.
+    std::function<Status(std::size_t light)> after_light = {};
+};
+
+/// Of the last render(), on the CPU.
+struct FrameTimes {
+    double record_ms = 0.0;  ///< uniforms, uploads, commands, validation
+    double submit_ms = 0.0;  ///< inside the device; the callback's time is in neither
+};
+
+class Renderer {
+public:
+    /// The device must outlive the renderer.
+    [[nodiscard]] static Result<Renderer> create(gpu::Device& device, const RendererDesc& desc);
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+    ~Renderer();
+
+    /// Meshes and materials of a scene. Call it again when some are added or replaced; poses and
+    /// lights are read by render().
+    [[nodiscard]] Status upload(const scene::Scene& scene);
+
+    /// One frame, submitted; does not wait for the device.
+    [[nodiscard]] Status render(const FrameInput& frame);
+
+    /// The finished picture: Rgba8Unorm, already sRGB-encoded.
+    [[nodiscard]] gpu::TextureId picture() const;
+    /// The depth-stencil buffer; its stencil holds the last light's count.
+    [[nodiscard]] gpu::TextureId depth_stencil() const;
+    [[nodiscard]] const shadow_pass::PassStats& shadow_stats() const;
+    [[nodiscard]] FrameTimes times() const;
+    [[nodiscard]] const RendererDesc& desc() const;
+
+private:
+    struct State;
+    explicit Renderer(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// One byte a pixel and sample, row 0 on top: the stencil of the last light. Sample 0 where there
+/// is only one.
+[[nodiscard]] Result<std::vector<std::byte>> read_stencil(gpu::Device& device,
+                                                          const Renderer& renderer,
+                                                          std::uint32_t sample = 0);
+
+}  // namespace gnomon::render

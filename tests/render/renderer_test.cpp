@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/render/renderer.hpp>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/gpu/fault_backend.hpp>
+#include <gnomon/gpu/null_backend.hpp>
+#include <gnomon/scene/shadow_adapter.hpp>
+
+#include "tests/rows/picture.hpp"
+#include "tests/rows/rows.hpp"
+#include "tests/support/devices.hpp"
+
+namespace gnomon::test {
+namespace {
+
+const Row& row(const char* name) {
+    return *std::find_if(rows().begin(), rows().end(),
+                         [&](const Row& r) { return r.name == name; });
+}
+
+// Draws one frame and gives the finished picture's bytes.
+Result<std::vector<std::byte>> draw(gpu::Device& device, const Setting& setting,
+                                    const render::RendererDesc& desc) {
+    auto renderer = render::Renderer::create(device, desc);
+    if (!renderer) return forward_error(renderer);
+    if (const Status uploaded = renderer->upload(setting.scene); !uploaded)
+        return forward_error(uploaded);
+    auto system = shadows::ShadowSystem::create();
+    scene::ShadowAdapter adapter;
+    auto frame = system->begin_frame();
+    if (const Status submitted = adapter.submit(setting.scene, frame); !submitted)
+        return forward_error(submitted);
+    const shadows::DrawList list = std::move(frame).finish(setting.view);
+    const Status rendered = renderer->render({setting.scene, setting.view, list, {}});
+    if (!rendered) return forward_error(rendered);
+    return device.read_texture(renderer->picture());
+}
+
+constexpr render::RendererDesc small{.width = row_width, .height = row_height};
+
+double mean_brightness(const std::vector<std::byte>& rgba, const std::vector<std::uint8_t>& mask,
+                       bool shadowed) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = row_width * row_height / 2; i < mask.size();
+         ++i) {  // the lower half: ground, no sky
+        if ((mask[i] != 0) != shadowed) continue;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            sum += std::to_integer<int>(rgba[4 * i + channel]);
+        }
+        count += 3.0;
+    }
+    return sum / count;
+}
+
+class Renderer : public DeviceTest {};
+
+TEST_P(Renderer, what_the_mask_covers_is_darker) {
+    const Setting setting = row("hidden_caster").make();
+    const auto rgba = must(draw(device(), setting, small));
+    const Picture picture = must(take_picture(device(), setting, {}));
+    const auto& mask = picture.masks[0][0];
+    EXPECT_GT(mean_brightness(rgba, mask, false), 1.4 * mean_brightness(rgba, mask, true));
+}
+
+TEST_P(Renderer, every_overlay_shows) {
+    const Setting setting = row("mirrored_and_sheared").make();
+    const auto plain = must(draw(device(), setting, small));
+    for (bool render::Overlays::*overlay :
+         {&render::Overlays::volumes, &render::Overlays::silhouettes, &render::Overlays::caps,
+          &render::Overlays::wireframe, &render::Overlays::count}) {
+        render::RendererDesc desc = small;
+        desc.overlays.*overlay = true;
+        EXPECT_NE(must(draw(device(), setting, desc)), plain);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Devices, Renderer, testing::ValuesIn(drawing_devices()), device_case_name);
+
+TEST(RendererFaults, a_device_that_fails_anywhere_gives_a_result_and_leaves_nothing) {
+    const Setting setting = row("open_meshes").make();
+    bool succeeded = false;
+    for (std::uint64_t fail_at = 1; !succeeded && fail_at < 400; ++fail_at) {
+        gpu::FaultPlan plan{.fail_at = fail_at};
+        gpu::Device device(gpu::create_fault_backend(gpu::create_null_backend(), plan));
+        succeeded = draw(device, setting, {.width = 16, .height = 16}).has_value();
+        EXPECT_EQ(succeeded, plan.calls < fail_at);
+        EXPECT_EQ(device.counters().objects_alive, 0U) << "failing at call " << fail_at;
+    }
+    EXPECT_TRUE(succeeded);
+}
+
+}  // namespace
+}  // namespace gnomon::test
