@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+//
+// Truth: traced hard shadows, to judge masks by. It is what tests and reports measure against;
+// nothing at run time depends on it.
+//
+// A rasteriser snaps vertices to a sub-pixel grid and truth does not, so at a shadow's very edge
+// the two may rightly differ. A pixel is judged only if the answer is the same everywhere within
+// `band_px` of its centre; the others form the band, whose size is reported. "Everywhere" is meant:
+// instead of rays, thin beams are traced, so that a needle between two rays is not missed.
+//
+//  1. The pixel's neighbourhood, a square of 2 * band_px, is a beam from the eye. What it meets is
+//     cut to it, down to the first surface that fills it without a boundary. All of that may be
+//     seen.
+//  2. Each such piece sends a beam to the light. If no caster enters it, the piece is lit. If
+//     triangles that join along shared edges fill it without a boundary, it is in shadow. Else its
+//     answer changes somewhere inside.
+//  3. If all the pieces say the same, that is the verdict.
+//
+// All of it in double precision. Where single precision must fail, the pixel is in the band as
+// well: a caster so near the surface that no depth buffer tells on which side of it it lies, a
+// surface on the near plane, light within 1e-5 rad of the surface, a T-junction's or an unwelded
+// seam's crack. Faces that coincide do not shadow each other: whichever is drawn, the other one's
+// cap is not in front of it. That holds for faces that are drawn; an undrawn caster's face that
+// lies in a drawn surface has its own cap at that depth, and rounding decides.
+//
+// What it is not: it knows neither alpha tests (whole triangles cast), nor soft edges, nor the
+// direction of normals (a surface is lit from the side it is seen from, or it is not judged).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include <gnomon/core/result.hpp>
+#include <gnomon/scene/scene.hpp>
+#include <gnomon/shadows/light.hpp>
+#include <gnomon/shadows/view.hpp>
+
+namespace gnomon::truth {
+
+/// One posed mesh. The spans must outlive the tracer's build, not the tracer.
+struct Instance {
+    std::span<const glm::vec3> positions;
+    std::span<const std::uint32_t> indices;
+    glm::dmat4 world_from_local{1.0};
+    bool casts = true;     ///< shadow rays hit it
+    bool receives = true;  ///< primary rays hit it
+};
+
+struct Options {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    double band_px = 1.0 / 16.0;  ///< at least 1/1000 is used
+    /// Which places inside a pixel are judged: (0.5, 0.5) for the centre; a sample's place for
+    /// MSAA.
+    glm::dvec2 sample_position{0.5, 0.5};
+};
+
+enum class Verdict : std::uint8_t {
+    Unjudged,  ///< nothing there, averted from the light (seen and lit from opposite sides), or out
+               ///< of the light's range
+    Band,      ///< within band_px of a change of the answer
+    Lit,
+    Shadowed,
+};
+
+/// The truth for one light: a verdict a pixel, row 0 on top.
+struct Picture {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<Verdict> verdicts;
+};
+
+/// A mask held against the truth.
+struct Judgement {
+    std::uint64_t pixels = 0;
+    std::uint64_t lit = 0;       ///< judged pixels that are truly lit
+    std::uint64_t shadowed = 0;  ///< judged pixels that are truly in shadow
+    std::uint64_t band = 0;
+    std::uint64_t false_shadow = 0;           ///< judged, lit in truth, not in the mask
+    std::uint64_t false_light = 0;            ///< judged, in shadow in truth, not in the mask
+    std::vector<std::uint32_t> wrong_pixels;  ///< indices y * width + x, at most 1000
+
+    [[nodiscard]] std::uint64_t judged() const { return lit + shadowed; }
+    [[nodiscard]] std::uint64_t wrong() const { return false_shadow + false_light; }
+};
+
+class Tracer {
+public:
+    /// `origin`: a point near the camera; everything is traced relative to it, so that scenes far
+    /// from the world's origin lose nothing. Fails with ErrorCode::InvalidInput for a position that
+    /// is not finite or beyond 1e18 m in the world, or an index out of range, with OutOfMemory or
+    /// Internal when Embree, which builds the search trees, does. Cost: a few seconds per million
+    /// triangles.
+    [[nodiscard]] static Result<Tracer> build(std::span<const Instance> instances,
+                                              const glm::dvec3& origin);
+    Tracer(Tracer&&) noexcept;
+    Tracer& operator=(Tracer&&) noexcept;
+    ~Tracer();
+
+    /// Any projection whose depth is 1 at the near plane (shadows/view.hpp). A light's range means
+    /// nothing for a directional light. Cost: two or three beams a pixel, on all cores; some 10 us
+    /// a pixel and core among 100,000 triangles. Deterministic.
+    [[nodiscard]] Picture trace(const shadows::View& view, const shadows::Light& light,
+                                const Options& options) const;
+
+private:
+    struct State;
+    explicit Tracer(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// `mask`: one byte a pixel, 0 = lit, row 0 on top, as big as the picture.
+[[nodiscard]] Judgement judge(const Picture& truth, std::span<const std::uint8_t> mask);
+
+/// The meshes of a scene: casts where there is a Caster, receives where there is a Receiver.
+[[nodiscard]] std::vector<Instance> instances_of(const scene::Scene& scene);
+
+}  // namespace gnomon::truth

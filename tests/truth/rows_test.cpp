@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+//
+// The rows of the parity suite against ray-traced shadows: outside the band of 1/16 pixel round
+// true shadow edges no pixel is wrong. And the judge can tell: volumes spoiled on purpose are
+// found.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include <gnomon/scene/shadow_adapter.hpp>
+#include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/silhouette.hpp>
+#include <gnomon/truth/truth.hpp>
+
+#include "tests/rows/picture.hpp"
+#include "tests/rows/rows.hpp"
+#include "tests/support/devices.hpp"
+
+namespace gnomon::test {
+namespace {
+
+shadows::Light light_of(const scene::Scene& scene, std::uint64_t key) {
+    const scene::Entity entity{static_cast<std::uint32_t>(key),
+                               static_cast<std::uint32_t>(key >> 32U)};
+    return *scene::shadow_light(scene.registry, entity);
+}
+
+truth::Judgement judge_all(const Setting& setting, const Picture& picture,
+                           const truth::Options& options, std::size_t sample = 0) {
+    const auto instances = truth::instances_of(setting.scene);
+    const glm::dvec3 eye(glm::inverse(setting.view.view_from_world)[3]);
+    const truth::Tracer tracer = must(truth::Tracer::build(instances, eye));
+    truth::Judgement total;
+    for (std::size_t i = 0; i < picture.list.lights.size(); ++i) {
+        const shadows::Light light = light_of(setting.scene, picture.list.lights[i].light);
+        const truth::Judgement one =
+            truth::judge(tracer.trace(setting.view, light, options), picture.masks[i][sample]);
+        total.pixels += one.pixels;
+        total.lit += one.lit;
+        total.shadowed += one.shadowed;
+        total.band += one.band;
+        total.false_shadow += one.false_shadow;
+        total.false_light += one.false_light;
+        total.wrong_pixels.insert(total.wrong_pixels.end(), one.wrong_pixels.begin(),
+                                  one.wrong_pixels.end());
+    }
+    return total;
+}
+
+std::string places(const truth::Judgement& judgement) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min<std::size_t>(judgement.wrong_pixels.size(), 8); ++i) {
+        const std::uint32_t at = judgement.wrong_pixels[i];
+        text += " (" + std::to_string(at % row_width) + ", " + std::to_string(at / row_width) + ")";
+    }
+    return text;
+}
+
+constexpr truth::Options row_options{.width = row_width, .height = row_height};
+
+DeviceCase drawing_device() { return drawing_devices().front(); }
+
+class Truth : public testing::TestWithParam<Row> {};
+
+TEST_P(Truth, no_pixel_is_wrong_outside_the_band) {
+    TestDevice* device = must(shared_device(drawing_device()));
+    const Setting setting = GetParam().make();
+    const Picture picture = must(
+        take_picture(device->device, setting, {.cull_back_faces = GetParam().cull_back_faces}));
+    const truth::Judgement judgement = judge_all(setting, picture, row_options);
+    const double judged = static_cast<double>(judgement.judged());
+    std::printf(
+        "%-40s judged %8.0f, shadowed %5.1f %%, band %5.2f %%, false shadow %llu, false light "
+        "%llu\n",
+        GetParam().name.c_str(), judged, 100.0 * static_cast<double>(judgement.shadowed) / judged,
+        100.0 * static_cast<double>(judgement.band) /
+            (judged + static_cast<double>(judgement.band)),
+        static_cast<unsigned long long>(judgement.false_shadow),
+        static_cast<unsigned long long>(judgement.false_light));
+    EXPECT_EQ(judgement.false_shadow, 0U) << places(judgement);
+    EXPECT_EQ(judgement.false_light, 0U) << places(judgement);
+    // A row that is all light or all shadow proves nothing, and neither does one that is all band.
+    EXPECT_GE(static_cast<double>(judgement.lit), 0.05 * judged);
+    EXPECT_GE(static_cast<double>(judgement.shadowed), 0.05 * judged);
+    EXPECT_LE(static_cast<double>(judgement.band), 0.10 * judged);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, Truth, testing::ValuesIn(rows()),
+                         [](const auto& param) { return param.param.name; });
+
+TEST(Truth, no_sample_is_wrong_outside_the_band) {
+    // The standard places of four samples (WebGPU and Vulkan agree).
+    constexpr std::array<glm::dvec2, 4> sample_places{
+        {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
+    TestDevice* device = must(shared_device(drawing_device()));
+    const Setting setting = rows()[0].make();
+    const Picture picture = must(take_picture(device->device, setting, {.samples = 4}));
+    for (std::size_t sample = 0; sample < 4; ++sample) {
+        truth::Options options = row_options;
+        options.sample_position = sample_places[sample];
+        const truth::Judgement judgement = judge_all(setting, picture, options, sample);
+        EXPECT_GT(judgement.shadowed, 0U);
+        EXPECT_EQ(judgement.wrong(), 0U) << "sample " << sample << places(judgement);
+    }
+}
+
+// Deliberate mistakes, each of which has been made by somebody. The row must be one that depth-fail
+// draws.
+class Mutation : public testing::Test {
+protected:
+    static truth::Judgement judge_with(const PictureOptions& options) {
+        TestDevice* device = must(shared_device(drawing_device()));
+        const Row& row = *std::find_if(rows().begin(), rows().end(), [](const Row& r) {
+            return r.name == "eye_inside_a_volume";
+        });
+        const Setting setting = row.make();
+        PictureOptions all_depth_fail = options;
+        all_depth_fail.technique = shadows::Technique::DepthFail;
+        return judge_all(setting, must(take_picture(device->device, setting, all_depth_fail)),
+                         row_options);
+    }
+
+    // Replaces every volume by a changed copy.
+    static PictureOptions changing(void (*change)(const shadows::VolumeDraw&, shadows::Volume&)) {
+        return {.mutate = [change](shadows::DrawList& list) {
+            std::uint64_t revision = std::uint64_t{1} << 40U;
+            for (shadows::VolumeDraw& draw : list.draws) {
+                auto volume = std::make_shared<shadows::Volume>(*draw.volume);
+                change(draw, *volume);
+                draw.volume = volume;
+                draw.revision = revision++;
+            }
+        }};
+    }
+};
+
+TEST_F(Mutation, none_is_right) { EXPECT_EQ(judge_with({}).wrong(), 0U); }
+
+TEST_F(Mutation, an_unchanged_copy_is_right) {
+    EXPECT_EQ(judge_with(changing([](const shadows::VolumeDraw&, shadows::Volume&) {})).wrong(),
+              0U);
+}
+
+TEST_F(Mutation, rotated_near_caps_are_found) {
+    const auto rotate = [](const shadows::VolumeDraw&, shadows::Volume& volume) {
+        for (const shadows::IndexRange& cap : {volume.near_cap, volume.near_cap_flipped}) {
+            for (std::uint32_t i = cap.first; i < cap.first + cap.count; i += 3) {
+                std::rotate(&volume.indices[i], &volume.indices[i + 1], &volume.indices[i] + 3);
+            }
+        }
+    };
+    EXPECT_GT(judge_with(changing(rotate)).wrong(), 0U);
+}
+
+TEST_F(Mutation, a_facing_bit_that_only_the_sides_see_is_found) {
+    const auto flip = [](const shadows::VolumeDraw& draw, shadows::Volume& volume) {
+        // The sides of a silhouette in which one casting face was forgotten; caps as they were.
+        std::vector<std::int8_t> weights(draw.mesh->faces().size(), 0);
+        const std::uint32_t first = volume.near_cap.first;
+        std::size_t cap = 0;
+        for (std::size_t f = 0; f < weights.size() && cap < volume.near_cap.count; ++f) {
+            const auto& face = draw.mesh->faces()[f];
+            if (volume.indices[first + cap] == 2 * face[0] &&
+                volume.indices[first + cap + 1] == 2 * face[1] &&
+                volume.indices[first + cap + 2] == 2 * face[2]) {
+                weights[f] = 1;
+                cap += 3;
+            }
+        }
+        weights[static_cast<std::size_t>(std::find(weights.begin(), weights.end(), 1) -
+                                         weights.begin())] = 0;
+        std::vector<shadows::SilhouetteEdge> silhouette;
+        shadows::find_silhouette(*draw.mesh, weights, silhouette);
+        shadows::Volume other;
+        shadows::build_volume(*draw.mesh, weights, silhouette, false,
+                              shadows::FarVertices::AtInfinity, other);
+        std::vector<std::uint32_t> indices(other.indices.begin(),
+                                           other.indices.begin() + other.sides.count);
+        const auto shift = other.sides.count - volume.sides.count;
+        indices.insert(indices.end(), volume.indices.begin() + volume.sides.count,
+                       volume.indices.end());
+        volume.indices = std::move(indices);
+        volume.sides = other.sides;
+        volume.near_cap.first += shift;
+        volume.far_cap.first += shift;
+        volume.near_cap_flipped.first += shift;
+    };
+    EXPECT_GT(judge_with(changing(flip)).wrong(), 0U);
+}
+
+TEST_F(Mutation, greater_equal_for_greater_is_found) {
+    EXPECT_GT(judge_with({.volume_depth_compare = gpu::Compare::GreaterEqual}).wrong(), 0U);
+}
+
+}  // namespace
+}  // namespace gnomon::test
