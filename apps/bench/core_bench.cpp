@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+//
+// The pure functions of the CPU core: building a mesh, facing, silhouettes, volumes. The light
+// jumps every time.
+#include <benchmark/benchmark.h>
+
+#include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/silhouette.hpp>
+#include <gnomon/shadows/volume.hpp>
+
+#include "meshes.hpp"
+
+namespace gnomon::bench {
+namespace {
+
+void per_triangle(benchmark::State& state, const shadows::ShadowMesh& mesh) {
+    const auto triangles = static_cast<double>(mesh.faces().size());
+    state.counters["triangles"] = triangles;
+    state.counters["time/triangle"] = benchmark::Counter(
+        triangles, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void build_mesh(benchmark::State& state) {
+    const scene::Mesh source = [&] {
+        const auto tube =
+            static_cast<std::uint32_t>(std::sqrt(static_cast<double>(state.range(0)) / 16.0));
+        return scene::make_torus_knot(1.0F, 0.3F, 2, 3, tube * 8, tube);
+    }();
+    const shadows::MeshView view{
+        .positions = reinterpret_cast<const std::byte*>(source.positions.data()),
+        .vertex_count = source.positions.size(),
+        .indices = source.indices};
+    std::shared_ptr<const shadows::ShadowMesh> mesh;
+    for (auto _ : state) {
+        mesh = *shadows::ShadowMesh::build(view);
+        benchmark::DoNotOptimize(mesh);
+    }
+    per_triangle(state, *mesh);
+}
+
+void classify(benchmark::State& state) {
+    const auto mesh = torus_knot(state.range(0));
+    shadows::Facing facing;
+    std::int64_t step = 0;
+    for (auto _ : state) {
+        shadows::classify_faces(*mesh, light_at(step++), facing);
+        benchmark::DoNotOptimize(facing.weights.data());
+    }
+    per_triangle(state, *mesh);
+}
+
+void silhouette_brute_force(benchmark::State& state) {
+    const auto mesh = torus_knot(state.range(0));
+    std::vector<shadows::Facing> facings(8);
+    for (std::size_t i = 0; i < facings.size(); ++i) {
+        shadows::classify_faces(*mesh, light_at(static_cast<std::int64_t>(i)), facings[i]);
+    }
+    std::vector<shadows::SilhouetteEdge> silhouette;
+    std::size_t step = 0;
+    for (auto _ : state) {
+        shadows::find_silhouette(*mesh, facings[step++ % facings.size()].weights, silhouette);
+        benchmark::DoNotOptimize(silhouette.data());
+    }
+    state.counters["edges"] = static_cast<double>(silhouette.size());
+    per_triangle(state, *mesh);
+}
+
+void volume(benchmark::State& state) {
+    const auto mesh = torus_knot(state.range(0));
+    shadows::Facing facing;
+    shadows::classify_faces(*mesh, light_at(1), facing);
+    std::vector<shadows::SilhouetteEdge> silhouette;
+    shadows::find_silhouette(*mesh, facing.weights, silhouette);
+    shadows::Volume result;
+    for (auto _ : state) {
+        shadows::build_volume(*mesh, facing.weights, silhouette, false,
+                              shadows::FarVertices::AtInfinity, result);
+        benchmark::DoNotOptimize(result.indices.data());
+    }
+    per_triangle(state, *mesh);
+}
+
+BENCHMARK(build_mesh)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond);
+BENCHMARK(classify)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(silhouette_brute_force)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(volume)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace gnomon::bench

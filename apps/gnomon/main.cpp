@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+//
+// gnomon: the command-line tool. Exit codes: 0 done; 2 bad usage or bad input, with one sentence on
+// stderr; 1 anything else.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <gnomon/scene/scene_description.hpp>
+#include <gnomon/shadows/silhouette.hpp>
+
+#include "devices.hpp"
+#include "inspect_command.hpp"
+#include "render_options.hpp"
+
+namespace {
+
+using namespace gnomon;
+
+int exit_code(ErrorCode code) {
+    return code == ErrorCode::InvalidInput || code == ErrorCode::Io ? 2 : 1;
+}
+
+int report(const Error& error) {
+    fmt::print(stderr, "gnomon: {}\n", cli::one_line(error.message));
+    return exit_code(error.code);
+}
+
+// CLI11 validates by exception and wants a string; our parsers give Results.
+template <class T, class Parser>
+std::function<void(const std::string&)> parsed_into(T& target, Parser parse) {
+    return [&target, parse](const std::string& text) {
+        auto value = parse(text);
+        if (!value) throw CLI::ValidationError("", value.error().message);
+        target = std::move(*value);
+    };
+}
+
+void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
+    auto* render = app.add_subcommand(
+        "render", "Draw a scene with exact shadows; write the picture and the masks");
+    render->footer(fmt::format(
+        "SCENE is a .glb, .gltf or .scene.json file, or builtin:NAME with NAME one of {}.\n"
+        "Without --eye the file's camera is used, else the scene is framed. Without --light the "
+        "file's\n"
+        "lights are used, else one sun.\n\n"
+        "  gnomon render builtin:pillars --out pillars.png\n"
+        "  gnomon render engine.glb --light dir:-1,-2,-1 --out engine.png --stencil engine --stats "
+        "engine.json\n"
+        "  gnomon render engine.glb --backend vk --show volumes,silhouettes --out volumes.png\n"
+        "  gnomon render city.glb --frames 100 --animate light:0.5 --stats city.json",
+        fmt::join(scene::builtin_scene_names(), ", ")));
+    render->add_option("scene", o.scene, "The scene to draw")->type_name("SCENE");
+    const CLI::Validator named(
+        [](const std::string& text) {
+            return text.empty() ? std::string("the name is empty") : std::string();
+        },
+        "");
+    render->add_option("--out", o.out, "Write the picture here (PNG)")
+        ->check(named)
+        ->type_name("IMAGE.png");
+    render
+        ->add_option("--stencil", o.stencil_prefix,
+                     "Write raw stencil counts to PREFIX.light0.pgm, …")
+        ->check(named)
+        ->type_name("PREFIX");
+    render->add_option("--stats", o.stats, "Write measurements here (JSON)")
+        ->check(named)
+        ->type_name("FILE.json");
+    render
+        ->add_option("--backend", o.backend,
+                     fmt::format("One of {}", fmt::join(cli::backend_names(), ", ")))
+        ->check(CLI::IsMember(cli::backend_names()));
+    render->add_option("--gl-stencil", o.gl_stencil, "Force OpenGL's stencil path")
+        ->check(CLI::IsMember({"two-side", "separate", "two-pass"}));
+    render
+        ->add_option_function<std::string>("--size", parsed_into(o.size, cli::parse_size),
+                                           "Pixels; default 1280x720")
+        ->type_name("WIDTHxHEIGHT");
+    render->add_option("--samples", o.samples, "Samples a pixel: 1 or 4")
+        ->check(CLI::IsMember({1, 4}));
+    const auto vector = [](const char* what) {
+        return [what](const std::string& text) { return cli::parse_vector(text, what); };
+    };
+    render
+        ->add_option_function<std::string>("--eye", parsed_into(o.eye, vector("--eye")),
+                                           "Where the camera stands")
+        ->type_name("x,y,z");
+    render
+        ->add_option_function<std::string>("--target", parsed_into(o.target, vector("--target")),
+                                           "What it looks at")
+        ->type_name("x,y,z");
+    render
+        ->add_option_function<std::string>(
+            "--up",
+            parsed_into(o.up,
+                        [](const std::string& text) -> Result<glm::dvec3> {
+                            auto up = cli::parse_vector(text, "--up");
+                            if (up && glm::length(*up) < cli::smallest_length) {
+                                return fail(ErrorCode::InvalidInput,
+                                            fmt::format("--up: \"{}\" has no direction.", text));
+                            }
+                            return up;
+                        }),
+            "Which way is up; default 0,1,0")
+        ->type_name("x,y,z");
+    const auto number = [](const char* what, double min, double max) {
+        return [=](const std::string& text) { return cli::parse_number(text, what, min, max); };
+    };
+    render
+        ->add_option_function<std::string>("--fovy",
+                                           parsed_into(o.fovy_deg, number("--fovy", 0.01, 179.0)),
+                                           "Vertical field of view in degrees; default 45")
+        ->type_name("DEGREES");
+    render
+        ->add_option_function<std::vector<std::string>>(
+            "--light",
+            [&o](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) {
+                    auto light = cli::parse_light(text);
+                    if (!light) throw CLI::ValidationError("", light.error().message);
+                    o.lights.push_back(*light);
+                }
+            },
+            "point:x,y,z[,range=R] or dir:x,y,z (the way it travels); repeatable")
+        ->type_name("LIGHT")
+        ->allow_extra_args(false);
+    render->add_option("--casters", o.casters, "Only nodes whose name matches cast")
+        ->type_name("GLOB");
+    render->add_option("--receivers", o.receivers, "Only nodes whose name matches are drawn")
+        ->type_name("GLOB");
+    render
+        ->add_option_function<std::string>(
+            "--cull", [&o](const std::string& text) { o.cull_back = text == "back"; },
+            "Which faces are left out of the picture; default none")
+        ->check(CLI::IsMember({"none", "back"}));
+    render
+        ->add_option_function<std::string>(
+            "--technique",
+            [&o](const std::string& text) {
+                if (text == "zpass") o.technique = shadows::Technique::DepthPass;
+                if (text == "zfail") o.technique = shadows::Technique::DepthFail;
+            },
+            "Depth-pass, depth-fail, or chosen per caster and light (auto)")
+        ->check(CLI::IsMember({"auto", "zpass", "zfail"}));
+    render->add_option("--silhouette", o.silhouette, "How silhouettes are found")
+        ->type_name("auto|NAME");
+    render->add_flag("--list-silhouettes", list_silhouettes, "List the names for --silhouette");
+    render
+        ->add_option_function<std::string>("--show", parsed_into(o.overlays, cli::parse_overlays),
+                                           "Debug views: volumes,silhouettes,caps,wireframe,count")
+        ->type_name("LIST");
+    render->add_option("--frames", o.frames, "How many frames; the last one is written")
+        ->check(CLI::Range(1, 1000000));
+    render
+        ->add_option_function<std::string>("--animate", parsed_into(o.motion, cli::parse_motion),
+                                           "static, camera, light:DEG a frame, casters:K")
+        ->type_name("MOTION");
+    render
+        ->add_option_function<std::string>(
+            "--near",
+            parsed_into(o.near_m, number("--near", cli::smallest_length, cli::largest_coordinate)),
+            "Near plane in metres; default 1e-5 of the scene's diagonal")
+        ->type_name("METRES");
+    render->add_flag("--quiet", o.quiet, "No notes and no progress line");
+}
+
+int run(int argc, char** argv) {
+    CLI::App app{"Exact hard shadows: stencil shadow volumes for any triangle mesh.", "gnomon"};
+    app.set_version_flag("--version", GNOMON_VERSION);
+    app.require_subcommand(1);
+    cli::RenderOptions render;
+    bool list_silhouettes = false;
+    add_render(app, render, list_silhouettes);
+    cli::InspectOptions inspect;
+    auto* inspect_app = app.add_subcommand("inspect", "Report the topology of a model's meshes");
+    inspect_app->add_option("model", inspect.model, "The model")->required()->type_name("MODEL");
+    inspect_app->add_flag("--json", inspect.json, "As JSON");
+
+    // Of an unknown one CLI11 would only say that a subcommand is missing.
+    const std::vector<std::string> commands{"render", "inspect"};
+    if (argc > 1 && argv[1][0] != '-' &&
+        std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+        return report(
+            {ErrorCode::InvalidInput, fmt::format("There is no subcommand \"{}\"; there are {}.",
+                                                  argv[1], fmt::join(commands, ", "))});
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked_for_help) {
+        return app.exit(asked_for_help);
+    } catch (const CLI::ParseError& error) {
+        std::string sentence = error.what();
+        if (const auto at = sentence.find_first_not_of(": "); at != std::string::npos)
+            sentence.erase(0, at);
+        if (!sentence.ends_with('.')) sentence += '.';
+        return report({ErrorCode::InvalidInput, std::move(sentence)});
+    }
+
+    if (inspect_app->parsed()) {
+        const auto text = cli::inspect(inspect);
+        if (!text) return report(text.error());
+        fmt::print("{}", *text);
+        return 0;
+    }
+    if (list_silhouettes) {
+        fmt::print("auto: chosen for each pair and frame\n");
+        for (const auto& strategy : shadows::silhouette_strategies()) {
+            fmt::print("{}: {}\n", strategy.name, strategy.summary);
+        }
+        return 0;
+    }
+    if (render.scene.empty()) {
+        fmt::print(stderr, "gnomon: render needs a SCENE; see gnomon render --help.\n");
+        return 2;
+    }
+    const Status done = cli::run_render(render);
+    return done ? 0 : report(done.error());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& unexpected) {
+        std::fprintf(stderr, "gnomon: %s\n", unexpected.what());
+        return 1;
+    }
+}

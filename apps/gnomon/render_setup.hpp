@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+//
+// From options and a file to a scene that is ready to be drawn: lights, casters, receivers, camera.
+#pragma once
+
+#include <gnomon/scene/scene.hpp>
+
+#include "render_options.hpp"
+
+namespace gnomon::cli {
+
+struct Shot {
+    scene::Scene scene;
+    scene::Bounds bounds;
+    scene::Camera camera;
+    glm::dmat4 world_from_camera{1.0};
+    double near_m = 0.01;
+};
+
+[[nodiscard]] Result<Shot> make_shot(const RenderOptions& options);
+
+}  // namespace gnomon::cli

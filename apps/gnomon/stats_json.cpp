@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "stats_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace gnomon::cli {
+
+std::string to_json(const RunRecord& run) {
+    using Json = nlohmann::ordered_json;
+    Json frames = Json::array();
+    for (const FrameRecord& frame : run.frames) {
+        const shadows::FrameStats& s = frame.shadows;
+        Json reasons = Json::object();
+        for (std::size_t i = 0; i < s.reasons.size(); ++i) {
+            if (s.reasons[i] > 0)
+                reasons[std::string(to_string(static_cast<shadows::Reason>(i)))] = s.reasons[i];
+        }
+        frames.push_back({{"frame_ms", frame.frame_ms},
+                          {"detect_ms", s.detect_ms},
+                          {"build_ms", s.build_ms},
+                          {"record_ms", frame.record_ms},
+                          {"submit_ms", frame.submit_ms},
+                          {"pairs", s.pairs},
+                          {"pairs_culled", s.pairs_culled},
+                          {"pairs_redetected", s.pairs_redetected},
+                          {"pairs_reused", s.pairs_reused},
+                          {"zpass_pairs", s.zpass_pairs},
+                          {"zfail_pairs", s.zfail_pairs},
+                          {"silhouette_edges", s.silhouette_edges},
+                          {"faces_tested", s.faces_tested},
+                          {"double_tests", s.facing.double_tests},
+                          {"exact_tests", s.facing.exact_tests},
+                          {"upload_bytes", frame.upload_bytes},
+                          {"draw_calls", frame.draw_calls},
+                          {"stencil_fragments", nullptr},
+                          {"silhouette", std::string(s.silhouette)},
+                          {"reasons", reasons}});
+    }
+    const Json json{{"backend", run.caps.backend},
+                    {"adapter", run.caps.adapter},
+                    {"stencil_path", run.caps.stencil_path},
+                    {"width", run.width},
+                    {"height", run.height},
+                    {"samples", run.samples},
+                    {"casters", run.frames.empty() ? 0 : run.frames.back().shadows.casters},
+                    {"lights", run.frames.empty() ? 0 : run.frames.back().shadows.lights},
+                    {"triangles", run.triangles},
+                    {"frames", frames}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace gnomon::cli
