@@ -42,6 +42,28 @@ DeviceCase osmesa_case(std::string name, gl::StencilPath path) {
             return create_gl(gl::create_osmesa_context, path, std::move(sink));
         }};
 }
+
+std::vector<DeviceCase> gl_cases() {
+    return {osmesa_case("gl_osmesa_separate", gl::StencilPath::Separate),
+            osmesa_case("gl_osmesa_two_side", gl::StencilPath::TwoSide),
+            osmesa_case("gl_osmesa_two_pass", gl::StencilPath::TwoPass),
+            {.name = "gl_egl", .draws = true, .create_backend = [](gpu::MessageSink sink) {
+                 return create_gl(gl::create_egl_context, gl::StencilPath::Separate,
+                                  std::move(sink));
+             }}};
+}
+#endif
+
+#if GNOMON_HAS_VK
+DeviceCase vk_case(const std::string& adapter) {
+    return {.name = "vk", .draws = true, .create_backend = [adapter](gpu::MessageSink sink) {
+                vk::BackendOptions options;
+                options.adapter = adapter;
+                options.validation = true;
+                options.message_sink = std::move(sink);
+                return vk::create_backend(options);
+            }};
+}
 #endif
 
 struct SharedDevice {
@@ -74,22 +96,13 @@ std::string device_case_name(const testing::TestParamInfo<DeviceCase>& info) {
 
 std::vector<DeviceCase> all_devices() {
     std::vector<DeviceCase> cases;
+    const char* variable = std::getenv("GNOMON_TEST_ADAPTER");
+    [[maybe_unused]] const std::string adapter = variable != nullptr ? variable : "";
 #if GNOMON_HAS_GL
-    cases.push_back(osmesa_case("gl_osmesa_separate", gl::StencilPath::Separate));
-    cases.push_back(osmesa_case("gl_osmesa_two_side", gl::StencilPath::TwoSide));
-    cases.push_back(osmesa_case("gl_osmesa_two_pass", gl::StencilPath::TwoPass));
-    cases.push_back({.name = "gl_egl", .draws = true, .create_backend = [](gpu::MessageSink sink) {
-                         return create_gl(gl::create_egl_context, gl::StencilPath::Separate,
-                                          std::move(sink));
-                     }});
+    if (adapter.empty()) cases = gl_cases();
 #endif
 #if GNOMON_HAS_VK
-    cases.push_back({.name = "vk", .draws = true, .create_backend = [](gpu::MessageSink sink) {
-                         vk::BackendOptions options;
-                         options.validation = true;
-                         options.message_sink = std::move(sink);
-                         return vk::create_backend(options);
-                     }});
+    cases.push_back(vk_case(adapter));
 #endif
     cases.push_back({.name = "null", .draws = false, .create_backend = [](const gpu::MessageSink&) {
                          return BackendResult(gpu::create_null_backend());

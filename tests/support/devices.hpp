@@ -2,7 +2,9 @@
 //
 // The devices that tests run on: a table of named rows for parametrised tests. A test on a device
 // that this machine cannot make is skipped with the reason, or fails when the environment variable
-// GNOMON_REQUIRE_DEVICES names the device (comma-separated, or "all").
+// GNOMON_REQUIRE_DEVICES names the device (comma-separated, or "all"). Where GNOMON_TEST_ADAPTER is
+// set, the Vulkan adapter with that in its name is the only device that draws: another rasteriser,
+// whose masks differ from Mesa's within the band.
 #pragma once
 
 #include <gtest/gtest.h>
