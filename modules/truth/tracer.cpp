@@ -49,8 +49,9 @@ Result<Tracer> Tracer::build(std::span<const Instance> instances, const glm::dve
 
 Picture Tracer::trace(const shadows::View& view, const shadows::Light& light,
                       const Options& options) const {
-    Picture picture{options.width, options.height, {}};
+    Picture picture{.width = options.width, .height = options.height, .verdicts = {}};
     picture.verdicts.resize(std::size_t{options.width} * options.height, Verdict::Unjudged);
+    picture.centres = picture.verdicts;
 
     const internal::Camera camera = internal::Camera::of(view, state_->origin);
     const glm::dvec4& at = light.position_world;
@@ -60,7 +61,9 @@ Picture Tracer::trace(const shadows::View& view, const shadows::Light& light,
     const double range_m = light.range_m.value_or(std::numeric_limits<double>::infinity());
     const glm::dvec2 ndc_per_pixel(2.0 / options.width, 2.0 / options.height);
     // A beam needs some width: a thousandth of a pixel is finer than any rasteriser's grid.
-    const glm::dvec2 band = std::max(options.band_px, 1e-3) * ndc_per_pixel;
+    constexpr double finest_px = 1e-3;
+    const glm::dvec2 band = std::max(options.band_px, finest_px) * ndc_per_pixel;
+    const glm::dvec2 finest = finest_px * ndc_per_pixel;
 
     std::atomic<std::uint32_t> next_row{0};
     const auto work = [&] {
@@ -70,8 +73,14 @@ Picture Tracer::trace(const shadows::View& view, const shadows::Light& light,
                 const glm::dvec2 place =
                     (glm::dvec2(x, y) + options.sample_position) * ndc_per_pixel;
                 const glm::dvec2 ndc(place.x - 1.0, 1.0 - place.y);
-                picture.verdicts[std::size_t{y} * options.width + x] =
-                    judge.verdict(camera.beam(ndc - band, ndc + band));
+                const std::size_t pixel = std::size_t{y} * options.width + x;
+                const Verdict verdict = judge.verdict(camera.beam(ndc - band, ndc + band));
+                picture.verdicts[pixel] = verdict;
+                // An answer that holds everywhere in the pixel's neighbourhood holds in its middle.
+                picture.centres[pixel] =
+                    verdict == Verdict::Band && options.band_px > finest_px
+                        ? judge.verdict(camera.beam(ndc - finest, ndc + finest))
+                        : verdict;
             }
         }
     };

@@ -72,9 +72,15 @@ struct Picture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<Verdict> verdicts;
+    /// What is true of the pixels' centres alone, within 1/1000 pixel: the verdict, but where that
+    /// is Band. Band here: the answer changes at the very centre, or single precision cannot tell.
+    /// Empty in a picture that was made by hand: then the band is undecided.
+    std::vector<Verdict> centres = {};
 };
 
-/// A mask held against the truth.
+/// A mask held against the truth. Its first half is what a mask must get right, to the last pixel.
+/// Its second half takes the band in, where a rasteriser may rightly differ: by what is true of the
+/// pixels' centres. That is the half that compares techniques.
 struct Judgement {
     std::uint64_t pixels = 0;
     std::uint64_t lit = 0;       ///< judged pixels that are truly lit
@@ -84,8 +90,37 @@ struct Judgement {
     std::uint64_t false_light = 0;            ///< judged, in shadow in truth, not in the mask
     std::vector<std::uint32_t> wrong_pixels;  ///< indices y * width + x, at most 1000
 
+    std::uint64_t band_lit = 0;        ///< band pixels whose centre is lit
+    std::uint64_t band_shadowed = 0;   ///< band pixels whose centre is in shadow
+    std::uint64_t band_undecided = 0;  ///< band pixels whose centre is on the change itself; those
+                                       ///< whose centre is Unjudged are in none of the three
+    std::uint64_t band_false_shadow = 0;  ///< of band_lit, not lit in the mask
+    std::uint64_t band_false_light = 0;   ///< of band_shadowed, not in shadow in the mask
+    /// How far, in pixels, the mask puts a shadow's edge from where it is: the largest distance
+    /// from a wrong pixel, in the band or out of it, to the nearest pixel whose centre is truly
+    /// what the mask says there, or undecided. That is the directed Hausdorff distance from the
+    /// mask to the truth, for shadow and light, whichever is larger, over what is judged at all.
+    /// One pixel wrong at an edge: 1. A streak through the light: the way to the next shadow.
+    /// Infinite where the truth has no such pixel: a shadow where there is none.
+    double edge_displacement_px = 0.0;
+
     [[nodiscard]] std::uint64_t judged() const { return lit + shadowed; }
     [[nodiscard]] std::uint64_t wrong() const { return false_shadow + false_light; }
+    /// Pixels that are wrong at all, against truth without a band.
+    [[nodiscard]] std::uint64_t wrong_at_all() const {
+        return wrong() + band_false_shadow + band_false_light;
+    }
+    /// Of how many pixels wrong_at_all() is.
+    [[nodiscard]] std::uint64_t decided() const { return judged() + band_lit + band_shadowed; }
+    /// Intersection over union of the mask's shadow and the true one, over the judged pixels: 1
+    /// where they are the same, both empty included.
+    [[nodiscard]] double iou() const;
+    /// The same over all decided() pixels.
+    [[nodiscard]] double iou_at_all() const;
+
+    /// Adds up judgements of several lights, samples or frames: counts are summed, the displacement
+    /// is the largest, wrong_pixels go after each other, at most 1000 together.
+    Judgement& operator+=(const Judgement& other);
 };
 
 class Tracer {
@@ -102,8 +137,8 @@ public:
     ~Tracer();
 
     /// Any projection whose depth is 1 at the near plane (shadows/view.hpp). A light's range means
-    /// nothing for a directional light. Cost: two or three beams a pixel, on all cores; some 10 us
-    /// a pixel and core among 100,000 triangles. Deterministic.
+    /// nothing for a directional light. Cost: two or three beams a pixel, twice that in the band,
+    /// on all cores; some 10 us a pixel and core among 100,000 triangles. Deterministic.
     [[nodiscard]] Picture trace(const shadows::View& view, const shadows::Light& light,
                                 const Options& options) const;
 
@@ -113,7 +148,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// `mask`: one byte a pixel, 0 = lit, row 0 on top, as big as the picture.
+/// `mask`: one byte a pixel, 0 = lit, row 0 on top, as big as the picture. Cost: linear in the
+/// pixels.
 [[nodiscard]] Judgement judge(const Picture& truth, std::span<const std::uint8_t> mask);
 
 /// The meshes of a scene: casts where there is a Caster, receives where there is a Receiver.

@@ -293,6 +293,36 @@ TEST(Oracle, BeyondItsRangeALightIsNotJudged) {
     EXPECT_GT(beyond, 100U);
 }
 
+// The band's pixels have an answer too, if one asks of their centres alone: that of a single ray.
+TEST(Oracle, TheCentresOfTheBandAreWhatARaySays) {
+    const Pinhole camera;
+    const std::vector<Shape> world = {{scene::make_plane(40.0F, 40.0F)},
+                                      {scene::make_torus(1.0F, 0.3F, 16, 8), at(0, 1, 0)}};
+    const shadows::Light light = lamp({0.7, 4.5, -0.4});
+    Options options = camera.options();
+    options.band_px = 0.25;
+    const Picture picture = picture_of(world, camera.view(), light, options);
+    ASSERT_EQ(picture.centres.size(), picture.verdicts.size());
+    const BruteForce brute(world);
+    std::size_t decided = 0;
+    std::size_t undecided = 0;
+    for (std::size_t i = 0; i < picture.verdicts.size(); ++i) {
+        if (picture.verdicts[i] != Verdict::Band) {
+            EXPECT_EQ(picture.centres[i], picture.verdicts[i]);
+            continue;
+        }
+        const glm::dvec2 corner(i % picture.width, i / picture.width);
+        if (picture.centres[i] == Verdict::Band) {
+            ++undecided;
+        } else {
+            EXPECT_EQ(picture.centres[i], brute.verdict(camera.ray(corner + 0.5), light)) << i;
+            ++decided;
+        }
+    }
+    EXPECT_GT(decided, 100U);
+    EXPECT_LT(undecided, decided / 10);
+}
+
 TEST(Oracle, AFlippedPixelIsFound) {
     const Pinhole camera;
     const Picture truth =

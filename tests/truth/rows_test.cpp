@@ -33,16 +33,7 @@ truth::Judgement judge_all(const Setting& setting, const Picture& picture,
     truth::Judgement total;
     for (std::size_t i = 0; i < picture.list.lights.size(); ++i) {
         const shadows::Light light = light_of(setting.scene, picture.list.lights[i].light);
-        const truth::Judgement one =
-            truth::judge(tracer.trace(setting.view, light, options), picture.masks[i][sample]);
-        total.pixels += one.pixels;
-        total.lit += one.lit;
-        total.shadowed += one.shadowed;
-        total.band += one.band;
-        total.false_shadow += one.false_shadow;
-        total.false_light += one.false_light;
-        total.wrong_pixels.insert(total.wrong_pixels.end(), one.wrong_pixels.begin(),
-                                  one.wrong_pixels.end());
+        total += truth::judge(tracer.trace(setting.view, light, options), picture.masks[i][sample]);
     }
     return total;
 }
@@ -71,12 +62,13 @@ TEST_P(Truth, no_pixel_is_wrong_outside_the_band) {
     const double judged = static_cast<double>(judgement.judged());
     std::printf(
         "%-40s judged %8.0f, shadowed %5.1f %%, band %5.2f %%, false shadow %llu, false light "
-        "%llu\n",
+        "%llu; at all %llu, edges within %.2f px\n",
         GetParam().name.c_str(), judged, 100.0 * static_cast<double>(judgement.shadowed) / judged,
         100.0 * static_cast<double>(judgement.band) /
             (judged + static_cast<double>(judgement.band)),
         static_cast<unsigned long long>(judgement.false_shadow),
-        static_cast<unsigned long long>(judgement.false_light));
+        static_cast<unsigned long long>(judgement.false_light),
+        static_cast<unsigned long long>(judgement.wrong_at_all()), judgement.edge_displacement_px);
     EXPECT_EQ(judgement.false_shadow, 0U) << places(judgement);
     EXPECT_EQ(judgement.false_light, 0U) << places(judgement);
     // A row that is all light or all shadow proves nothing, and neither does one that is all band.
