@@ -26,6 +26,11 @@ target_compile_options(gnomon_compile_options INTERFACE
 if(GNOMON_CHECKED)
   target_compile_definitions(gnomon_compile_options INTERFACE GNOMON_CHECKED)
 endif()
+# GCC 12.2, from -O2 on, forgets to round where it vectorises double -> float -> double in straight-line code: a light
+# "rounded once" would not be rounded everywhere (tests/shadows/rounding_test.cpp).
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(gnomon_compile_options INTERFACE -fno-tree-slp-vectorize)
+endif()
 # GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(gnomon_compile_options INTERFACE -Wno-restrict)

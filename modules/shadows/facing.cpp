@@ -2,11 +2,16 @@
 #include <gnomon/shadows/facing.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <limits>
+#include <span>
 
 #include <gnomon/shadows/orientation.hpp>
 
+#include "internal/face_filter.hpp"
 #include "internal/face_plane.hpp"
 
 namespace gnomon::shadows {
@@ -21,8 +26,7 @@ struct Side {
     double distance = 0.0;  // a lower bound on how far the light is from the face's plane
 };
 
-// Double precision, then exact. Shewchuk, section 4.3: |error| <= (7 + 56 e) e permanent; 8 e
-// covers the products of the permanent itself.
+// Double precision, then exact. docs/numerics.md, "Facing", derives the bound.
 Side side_in_double(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, LightLocal light,
                     FacingStats& stats) {
     ++stats.double_tests;
@@ -39,14 +43,38 @@ Side side_in_double(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, 
         const int k = (i + 2) % 3;
         minors[i] = std::abs(e1[j] * e2[k]) + std::abs(e1[k] * e2[j]);
     }
-    const double bound = 8.0 * 0x1p-53 * glm::dot(minors, glm::abs(t));
+    const double bound = 10.0 * 0x1p-53 * glm::dot(minors, glm::abs(t));
     if (std::abs(s) > bound) {
         // A sliver's exact normal may be longer than the computed one, by 5 e minors at most.
         const double longest = glm::length(n) + 5.0 * 0x1p-53 * glm::length(minors);
         return {s > 0.0 ? 1 : -1, (std::abs(s) - bound) / longest * (1.0 - slack)};
     }
+    if (bound == 0.0) return {};  // nothing underflows here: every product has a factor of zero
     ++stats.exact_tests;
     return {exact_facing(a, b, c, light), 0.0};
+}
+
+// Gives every side that the filter left at 0 its sign. Returns how far the light is from the
+// nearest of their planes, at least.
+double decide_the_rest(const ShadowMesh& mesh, LightLocal light, Facing& out) {
+    const auto faces = mesh.faces();
+    const auto positions = mesh.positions();
+    const std::span<std::int8_t> sides(out.weights);
+    const auto next = [&](std::size_t from) {
+        const void* found = std::memchr(sides.data() + from, 0, sides.size() - from);
+        return found == nullptr ? sides.size()
+                                : static_cast<std::size_t>(static_cast<const std::int8_t*>(found) -
+                                                           sides.data());
+    };
+    double nearest = infinity;
+    for (std::size_t f = 0; f < sides.size() && (f = next(f)) < sides.size(); ++f) {
+        if (internal::is_degenerate(mesh.planes(), f)) continue;
+        const Side side = side_in_double(positions[faces[f][0]], positions[faces[f][1]],
+                                         positions[faces[f][2]], light, out.stats);
+        sides[f] = static_cast<std::int8_t>(side.sign);
+        nearest = std::min(nearest, side.distance);
+    }
+    return nearest;
 }
 
 bool inside(const Component& component, const glm::vec3& p) {
@@ -63,62 +91,68 @@ double distance_to_boundary(const Component& component, const glm::vec3& p) {
     return glm::length(glm::max(outside, glm::dvec3(0.0))) * (1.0 - slack);
 }
 
+// What the faces of a component weigh that are averted, edge-on and facing.
+using Casting = std::array<std::int8_t, 3>;
+
+Casting casting_of(const Component& component, LightLocal light) {
+    const bool one_sided = component.closed && (light.is_directional() ||
+                                                !inside(component, glm::vec3(light.position)));
+    if (!one_sided) return {-1, 0, 1};
+    return component.inside_out ? Casting{-1, 0, 0} : Casting{0, 0, 1};
+}
+
+// Turns sides into weights, in place.
+void weigh(const ShadowMesh& mesh, LightLocal light, std::span<std::int8_t> sides) {
+    std::vector<Casting> castings;
+    castings.reserve(mesh.components().size());
+    for (const Component& component : mesh.components()) {
+        castings.push_back(casting_of(component, light));
+    }
+    const bool uniform = std::adjacent_find(castings.begin(), castings.end(),
+                                            std::not_equal_to<>()) == castings.end();
+    if (!uniform) {
+        const auto face_components = mesh.face_components();
+        for (std::size_t f = 0; f < sides.size(); ++f) {
+            sides[f] = castings[face_components[f]][static_cast<std::size_t>(sides[f] + 1)];
+        }
+    } else if (!castings.empty() && castings[0] != Casting{-1, 0, 1}) {
+        const auto [averted, edge_on, facing] = castings[0];
+        for (std::int8_t& side : sides) side = side > 0 ? facing : (side < 0 ? averted : edge_on);
+    }
+}
+
+bool is_finite(const glm::vec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
 }  // namespace
 
-void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out) {
-    const auto faces = mesh.faces();
-    const auto planes = mesh.planes();
-    const auto positions = mesh.positions();
-    const auto components = mesh.components();
-    const auto face_components = mesh.face_components();
+void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out, FacingFilter filter) {
     const glm::vec3 l(light.position);
-    const float w = light.position.w;
-    const float l_sum = std::abs(l.x) + std::abs(l.y) + std::abs(l.z);
-
     out.stats = {};
-    out.stats.faces = faces.size();
-    out.weights.assign(faces.size(), 0);
-    double margin = infinity;
-
-    // What each component lets cast: bit 0 faces towards the light, bit 1 averted ones.
-    std::vector<std::uint8_t> casting(components.size());
-    for (std::size_t i = 0; i < components.size(); ++i) {
-        const Component& component = components[i];
-        const bool one_sided =
-            component.closed && (light.is_directional() || !inside(component, l));
-        casting[i] = static_cast<std::uint8_t>(!one_sided ? 3 : (component.inside_out ? 2 : 1));
-        if (component.closed && !light.is_directional()) {
-            margin = std::min(margin, distance_to_boundary(component, l));
-        }
+    out.stats.faces = mesh.faces().size();
+    if (!is_finite(l)) {
+        out.weights.assign(mesh.faces().size(), 0);
+        out.margin = 0.0;
+        return;
     }
+    out.weights.resize(mesh.faces().size());
+    const internal::FilterLight filtered = internal::filter_light(mesh.planes(), light);
+    const float nearest = filter == FacingFilter::Simd
+                              ? internal::filter_simd(mesh.planes(), filtered, out.weights)
+                              : internal::filter_scalar(mesh.planes(), filtered, out.weights);
+    double margin = static_cast<double>(nearest) * internal::plane_shrink;
+    margin = std::min(margin, decide_the_rest(mesh, light, out));
+    weigh(mesh, light, out.weights);
 
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        const FacePlane& plane = planes[f];
-        const float s =
-            plane.normal.x * l.x + plane.normal.y * l.y + plane.normal.z * l.z + plane.offset * w;
-        const float bound =
-            plane.normal_error * l_sum + plane.offset_error * w + std::numeric_limits<float>::min();
-        Side side;
-        // Not-a-number and infinity (an overflow in single precision) must not pass the filter.
-        if (std::abs(s) > bound && std::abs(s) < std::numeric_limits<float>::infinity()) {
-            // The exact normal may be longer than the stored one, by its error at most.
-            const double longest = glm::length(glm::dvec3(plane.normal)) + plane.normal_error;
-            side = {s > 0.0F ? 1 : -1,
-                    static_cast<double>(std::abs(s) - bound) / longest * (1.0 - 1e-6)};
-        } else {
-            if (internal::is_degenerate(plane)) continue;
-            side = side_in_double(positions[faces[f][0]], positions[faces[f][1]],
-                                  positions[faces[f][2]], light, out.stats);
-        }
-        margin = std::min(margin, side.distance);
-        const unsigned mask = side.sign > 0 ? 1U : 2U;
-        if (side.sign != 0 && (casting[face_components[f]] & mask) != 0) {
-            out.weights[f] = static_cast<std::int8_t>(side.sign);
-        }
-    }
     if (light.is_directional()) {
         const double length = glm::length(glm::dvec3(l));
         margin = length > 0.0 ? margin / length : 0.0;
+    } else {
+        for (const Component& component : mesh.components()) {
+            if (!component.closed) continue;
+            margin = std::min(margin, distance_to_boundary(component, l));
+        }
     }
     out.margin = std::max(0.0, margin);
 }

@@ -37,8 +37,17 @@ struct Facing {
     FacingStats stats;
 };
 
-/// Every weight is exact for `light` as it is. Cost: linear, a few ns a face.
-void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out);
+/// The two forms of the single-precision stage: the same operations on the same numbers.
+enum class FacingFilter : std::uint8_t {
+    Simd,    ///< several faces at a time, where the compiler has vectors
+    Scalar,  ///< one by one: the reference that tests hold the other against
+};
+
+/// Every weight is exact for `light` as it is; both filters give the same bits in all of `out`. A
+/// light that is not finite casts nothing, with margin 0. Cost: linear, about a nanosecond a face,
+/// and some microseconds for each face that needs exact arithmetic.
+void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out,
+                    FacingFilter filter = FacingFilter::Simd);
 
 /// For a caster whose pose is singular (a zero scale) and therefore has no light of its own:
 /// decides in the space that `parent_from_local` leads to, two-sided, in double precision. margin

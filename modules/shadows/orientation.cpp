@@ -2,10 +2,19 @@
 #include <gnomon/shadows/orientation.hpp>
 
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <cstddef>
 
+#include "internal/rounded_product.hpp"
+
+#ifdef __FAST_MATH__
+#error "Expansions are exact by IEEE 754 arithmetic alone: compile without -ffast-math."
+#endif
+
 namespace gnomon::shadows {
+
+static_assert(FLT_EVAL_METHOD == 0, "doubles must round to double, not to a wider register");
 
 namespace {
 
@@ -34,9 +43,11 @@ TwoTerms two_sum(double a, double b) {
     return {high, (a - a_virtual) + (b - b_virtual)};
 }
 
-// a * b = high + low, exactly: the fused operation rounds once.
+// a * b = high + low, exactly: the fused operation rounds once. The product itself must not be
+// fused with what it is added to: two_sum would return the error of another sum. It is the only one
+// here.
 TwoTerms two_product(double a, double b) {
-    const double high = a * b;
+    const double high = internal::rounded_product(a, b);
     return {high, std::fma(a, b, -high)};
 }
 

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "internal/face_plane.hpp"
+#include "internal/rounded_product.hpp"
 
 namespace gnomon::shadows {
 
@@ -58,6 +59,34 @@ public:
 
 private:
     std::vector<std::uint32_t> parent_;
+};
+
+// Six times the signed volume between a surface and a point, as the sum over its faces, with the
+// sum of all magnitudes, which bounds its error (docs/numerics.md, "Facing"). A flat or doubled
+// sheet has volume zero, so that rounding alone would decide about its sign: hence products that
+// are the same in every build.
+struct SignedVolume {
+    glm::dvec3 reference{0.0};
+    double sum = 0.0;
+    double magnitude = 0.0;
+
+    void add(const glm::vec3& a_float, const glm::vec3& b_float, const glm::vec3& c_float) {
+        const glm::dvec3 a = glm::dvec3(a_float) - reference;
+        const glm::dvec3 b = glm::dvec3(b_float) - reference;
+        const glm::dvec3 c = glm::dvec3(c_float) - reference;
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            const int k = (i + 2) % 3;
+            const double plus = internal::rounded_product(b[j], c[k]);
+            const double minus = internal::rounded_product(b[k], c[j]);
+            sum += internal::rounded_product(a[i], plus - minus);
+            magnitude +=
+                internal::rounded_product(std::abs(a[i]), std::abs(plus) + std::abs(minus));
+        }
+    }
+    [[nodiscard]] bool certainly_negative(std::uint64_t faces) const {
+        return sum < -(3.0 * static_cast<double>(faces) + 16.0) * 0x1p-53 * magnitude;
+    }
 };
 
 struct HalfEdge {
@@ -186,10 +215,8 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
     report.edges = mesh->edges_.size();
 
     std::vector<std::uint32_t> component_of_root(mesh->faces_.size());
-    std::vector<double> volumes;
-    std::vector<glm::dvec3> references;
+    std::vector<SignedVolume> volumes;
     mesh->face_components_.resize(mesh->faces_.size());
-    mesh->planes_.resize(mesh->faces_.size());
     for (std::uint32_t f = 0; f < mesh->faces_.size(); ++f) {
         const auto& face = mesh->faces_[f];
         const glm::vec3 a = mesh->positions_[face[0]];
@@ -199,8 +226,7 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
         if (root == f) {
             component_of_root[f] = static_cast<std::uint32_t>(mesh->components_.size());
             mesh->components_.push_back({true, false, a, a, 0});
-            volumes.push_back(0.0);
-            references.emplace_back(a);
+            volumes.push_back({.reference = glm::dvec3(a)});
         }
         const std::uint32_t index = component_of_root[root];
         mesh->face_components_[f] = index;
@@ -208,18 +234,14 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
         ++component.faces;
         component.bounds_min = glm::min(component.bounds_min, glm::min(a, glm::min(b, c)));
         component.bounds_max = glm::max(component.bounds_max, glm::max(a, glm::max(b, c)));
-        const glm::dvec3 r = references[index];
-        volumes[index] +=
-            glm::dot(glm::dvec3(a) - r, glm::cross(glm::dvec3(b) - r, glm::dvec3(c) - r));
-        mesh->planes_[f] = internal::make_face_plane(a, b, c);
-        if (internal::is_degenerate(mesh->planes_[f])) ++report.degenerate_faces;
+        volumes[index].add(a, b, c);
     }
     for (const std::uint32_t face : unbalanced_faces) {
         mesh->components_[mesh->face_components_[face]].closed = false;
     }
     for (std::size_t i = 0; i < mesh->components_.size(); ++i) {
         Component& component = mesh->components_[i];
-        component.inside_out = component.closed && volumes[i] < 0.0;
+        component.inside_out = component.closed && volumes[i].certainly_negative(component.faces);
         if (component.closed) ++report.closed_components;
         if (i == 0) {
             mesh->bounds_min_ = component.bounds_min;
@@ -229,6 +251,11 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
         mesh->bounds_max_ = glm::max(mesh->bounds_max_, component.bounds_max);
     }
     report.components = mesh->components_.size();
+    mesh->planes_ = internal::make_face_planes(mesh->positions_, mesh->faces_, mesh->bounds_min_,
+                                               mesh->bounds_max_);
+    for (std::size_t f = 0; f < mesh->faces_.size(); ++f) {
+        if (internal::is_degenerate(mesh->planes_, f)) ++report.degenerate_faces;
+    }
     return mesh;
 }
 

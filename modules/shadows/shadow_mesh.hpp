@@ -64,20 +64,26 @@ struct FaceUse {
 /// Faces connected through edges.
 struct Component {
     bool closed = false;      ///< every edge's signed sum of face uses is zero
-    bool inside_out = false;  ///< closed with a negative signed volume
+    bool inside_out = false;  ///< closed, with a signed volume that is negative for certain
     glm::vec3 bounds_min{0.0F};
     glm::vec3 bounds_max{0.0F};
     std::uint64_t faces = 0;
 };
 
-/// The plane through a face, for the filtered facing test: normal . x + offset, with a bound on its
-/// error (facing.hpp). Not normalised: the normal is twice the area long.
-struct FacePlane {
-    glm::vec3 normal{0.0F};
-    float offset = 0.0F;
-    float normal_error =
-        0.0F;  ///< bound on the error of each normal component's use, per unit of light coordinate
-    float offset_error = 0.0F;  ///< bound on the error of the offset
+/// The planes of all faces, for the first stage of the facing test (facing.hpp), which takes
+/// several at a time: one array a quantity, in the order of faces(). The plane of a face is where
+/// normal . (x - origin) + offset = 0, with a normal of length 1, all rounded to single precision.
+struct FacePlanes {
+    glm::vec3 origin{0.0F};  ///< the middle of the bounds: being far from zero costs no precision
+    float radius = 0.0F;     ///< no corner has a larger |x| + |y| + |z| relative to the origin
+    std::vector<float> normal_x;
+    std::vector<float> normal_y;
+    std::vector<float> normal_z;
+    std::vector<float> offset;
+    /// Bounds the error of the value above, at a point p relative to the origin, per unit of |p.x|
+    /// + |p.y| + |p.z| + radius (docs/numerics.md, "Face planes"). 0: a face without area, exactly.
+    /// Infinite: a sliver that single precision says nothing about.
+    std::vector<float> error;
 };
 
 class ShadowMesh {
@@ -100,7 +106,7 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> face_components() const {
         return face_components_;
     }
-    [[nodiscard]] std::span<const FacePlane> planes() const { return planes_; }
+    [[nodiscard]] const FacePlanes& planes() const { return planes_; }
     [[nodiscard]] glm::vec3 bounds_min() const { return bounds_min_; }
     [[nodiscard]] glm::vec3 bounds_max() const { return bounds_max_; }
 
@@ -115,7 +121,7 @@ private:
     std::vector<FaceUse> uses_;
     std::vector<Component> components_;
     std::vector<std::uint32_t> face_components_;
-    std::vector<FacePlane> planes_;
+    FacePlanes planes_;
     glm::vec3 bounds_min_{0.0F};
     glm::vec3 bounds_max_{0.0F};
 };

@@ -260,17 +260,17 @@ TEST(ShadowMesh, EdgesComponentsAndPlanesAreRightForRandomMeshes) {
             ASSERT_NE(mesh->components()[c].closed, open[c]);
 
         // Planes: the bound on the error covers the error.
+        const FacePlanes& planes = mesh->planes();
         for (std::size_t f = 0; f < faces.size(); ++f) {
-            const FacePlane& plane = mesh->planes()[f];
+            const glm::dvec3 normal(planes.normal_x[f], planes.normal_y[f], planes.normal_z[f]);
             for (const std::uint32_t corner : faces[f]) {
                 // Every corner lies on the exact plane.
-                const glm::dvec3 x(p[corner]);
-                const double s =
-                    glm::dot(glm::dvec3(plane.normal), x) + static_cast<double>(plane.offset);
-                const double bound = static_cast<double>(plane.normal_error) *
-                                         (std::abs(x.x) + std::abs(x.y) + std::abs(x.z)) +
-                                     static_cast<double>(plane.offset_error);
-                ASSERT_LE(std::abs(s), bound);
+                const glm::dvec3 x = glm::dvec3(p[corner]) - glm::dvec3(planes.origin);
+                const double s = glm::dot(normal, x) + static_cast<double>(planes.offset[f]);
+                const double reach = std::abs(x.x) + std::abs(x.y) + std::abs(x.z);
+                const auto radius = static_cast<double>(planes.radius);
+                ASSERT_LE(reach, radius);
+                ASSERT_LE(std::abs(s), static_cast<double>(planes.error[f]) * (reach + radius));
             }
         }
     }
