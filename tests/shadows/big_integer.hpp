@@ -5,10 +5,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include <glm/glm.hpp>
+
+#include <gnomon/shadows/light.hpp>
 
 namespace gnomon::test {
 
@@ -96,5 +101,28 @@ private:
     bool negative_ = false;
     std::vector<std::uint32_t> digits_;  // least significant first, no leading zero
 };
+
+using BigVector = std::array<BigInteger, 3>;
+
+inline BigVector big(const glm::vec3& p) {
+    return {BigInteger::of_float(p.x), BigInteger::of_float(p.y), BigInteger::of_float(p.z)};
+}
+
+inline BigVector operator-(const BigVector& a, const BigVector& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+inline BigVector cross(const BigVector& u, const BigVector& v) {
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// The sign of normal(a, b, c) . (light - a), or of normal . direction.
+inline int integer_facing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
+                          shadows::LightLocal light) {
+    const BigVector n = cross(big(b) - big(a), big(c) - big(a));
+    BigVector t = big(glm::vec3(light.position));
+    if (!light.is_directional()) t = t - big(a);
+    return (n[0] * t[0] + n[1] * t[1] + n[2] * t[2]).sign();
+}
 
 }  // namespace gnomon::test

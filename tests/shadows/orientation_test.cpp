@@ -17,7 +17,6 @@
 namespace gnomon::shadows {
 namespace {
 
-using test::BigInteger;
 using test::Random;
 
 __extension__ typedef __int128 Wide;
@@ -157,27 +156,6 @@ TEST(Orientation, FindsCollinearPointsExactly) {
     EXPECT_LT(collinear, 24'000);
 }
 
-using BigVector = std::array<BigInteger, 3>;
-
-BigVector big(const glm::vec3& p) {
-    return {BigInteger::of_float(p.x), BigInteger::of_float(p.y), BigInteger::of_float(p.z)};
-}
-
-BigVector operator-(const BigVector& a, const BigVector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-BigVector cross(const BigVector& u, const BigVector& v) {
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-int big_facing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, LightLocal light) {
-    const BigVector n = cross(big(b) - big(a), big(c) - big(a));
-    BigVector t = big(glm::vec3(light.position));
-    if (!light.is_directional()) t = t - big(a);
-    return (n[0] * t[0] + n[1] * t[1] + n[2] * t[2]).sign();
-}
-
 // Any finite float at all: normal, subnormal, zero, the largest.
 float any_float(Random& random) {
     for (;;) {
@@ -213,15 +191,16 @@ TEST(Orientation, IsExactForEveryExponentAFloatCanHave) {
             const glm::vec3 a_flat(a.x, a.y, z);
             const glm::vec3 b_flat(b.x, b.y, z);
             const glm::vec3 c_flat(c.x, c.y, z);
-            const int expected = big_facing(a_flat, b_flat, c_flat, light);
+            const int expected = test::integer_facing(a_flat, b_flat, c_flat, light);
             ++signs[expected + 1];
             ASSERT_EQ(exact_facing(a_flat, b_flat, c_flat, light), expected) << "case " << i;
         }
         const LightLocal light = light_at(l, random.chance(0.3));
-        const int expected = big_facing(a, b, c, light);
+        const int expected = test::integer_facing(a, b, c, light);
         ++signs[expected + 1];
         ASSERT_EQ(exact_facing(a, b, c, light), expected) << "case " << i;
-        const BigVector n = cross(big(b) - big(a), big(c) - big(a));
+        const test::BigVector n =
+            test::cross(test::big(b) - test::big(a), test::big(c) - test::big(a));
         ASSERT_EQ(exactly_collinear(a, b, c),
                   n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0)
             << "case " << i;
