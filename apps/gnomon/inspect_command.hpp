@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+//
+// gnomon inspect: what shadows know of a model's meshes, what that costs and what to do about it.
 #pragma once
 
 #include <string>
@@ -10,9 +12,10 @@ namespace gnomon::cli {
 struct InspectOptions {
     std::string model;
     bool json = false;
+    std::string obj;  ///< write the offending edges here; empty: nowhere
 };
 
-/// The topology report of a model's meshes: text for people, or JSON.
+/// The report: text for people, or JSON. Writes options.obj first: whole, or not at all.
 [[nodiscard]] Result<std::string> inspect(const InspectOptions& options);
 
 }  // namespace gnomon::cli

@@ -11,6 +11,8 @@
 #include <string>
 #include <unordered_map>
 
+#include <gnomon/shadows/topology.hpp>
+
 #include "internal/face_plane.hpp"
 #include "internal/rounded_product.hpp"
 
@@ -186,12 +188,10 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
     // Edges with their signed uses; components.
     const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh->faces_);
     Groups groups(mesh->faces_.size());
-    std::vector<std::uint32_t> unbalanced_faces;  // one face of each unbalanced edge
     mesh->uses_.reserve(half_edges.size());
     for (std::size_t begin = 0; begin < half_edges.size();) {
         const HalfEdge& edge = half_edges[begin];
         const auto first_use = static_cast<std::uint32_t>(mesh->uses_.size());
-        std::int32_t sum = 0;
         for (; begin < half_edges.size() && half_edges[begin].low == edge.low &&
                half_edges[begin].high == edge.high;
              ++begin) {
@@ -199,18 +199,9 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
             groups.join(edge.face, use.face);
             if (use.sign == 0) continue;
             mesh->uses_.push_back({use.face, use.sign});
-            sum += use.sign;
         }
         const auto count = static_cast<std::uint32_t>(mesh->uses_.size()) - first_use;
-        if (count == 0) continue;
-        mesh->edges_.push_back({edge.low, edge.high, first_use, count});
-        if (count == 1) ++report.boundary_edges;
-        if (count > 2) ++report.non_manifold_edges;
-        if (count == 2 && sum != 0) ++report.inconsistent_edges;
-        if (sum != 0) {
-            ++report.unbalanced_edges;
-            unbalanced_faces.push_back(edge.face);
-        }
+        if (count > 0) mesh->edges_.push_back({edge.low, edge.high, first_use, count});
     }
     report.edges = mesh->edges_.size();
 
@@ -225,7 +216,7 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
         const std::uint32_t root = groups.find(f);
         if (root == f) {
             component_of_root[f] = static_cast<std::uint32_t>(mesh->components_.size());
-            mesh->components_.push_back({true, false, a, a, 0});
+            mesh->components_.push_back({.bounds_min = a, .bounds_max = a});
             volumes.push_back({.reference = glm::dvec3(a)});
         }
         const std::uint32_t index = component_of_root[root];
@@ -236,11 +227,25 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
         component.bounds_max = glm::max(component.bounds_max, glm::max(a, glm::max(b, c)));
         volumes[index].add(a, b, c);
     }
-    for (const std::uint32_t face : unbalanced_faces) {
-        mesh->components_[mesh->face_components_[face]].closed = false;
+    for (const Edge& edge : mesh->edges_) {
+        const auto uses = mesh->uses(edge);
+        Component& component = mesh->components_[mesh->face_components_[uses.front().face]];
+        ++component.edges;
+        if (edge_balance(uses) != 0) ++component.unbalanced_edges;
+        switch (edge_kind(uses)) {
+            case EdgeKind::Regular: break;
+            case EdgeKind::Boundary: ++component.boundary_edges; break;
+            case EdgeKind::Inconsistent: ++component.inconsistent_edges; break;
+            case EdgeKind::NonManifold: ++component.non_manifold_edges; break;
+        }
     }
     for (std::size_t i = 0; i < mesh->components_.size(); ++i) {
         Component& component = mesh->components_[i];
+        report.boundary_edges += component.boundary_edges;
+        report.non_manifold_edges += component.non_manifold_edges;
+        report.inconsistent_edges += component.inconsistent_edges;
+        report.unbalanced_edges += component.unbalanced_edges;
+        component.closed = component.unbalanced_edges == 0;
         component.inside_out = component.closed && volumes[i].certainly_negative(component.faces);
         if (component.closed) ++report.closed_components;
         if (i == 0) {
@@ -254,9 +259,15 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
     mesh->planes_ = internal::make_face_planes(mesh->positions_, mesh->faces_, mesh->bounds_min_,
                                                mesh->bounds_max_);
     for (std::size_t f = 0; f < mesh->faces_.size(); ++f) {
-        if (internal::is_degenerate(mesh->planes_, f)) ++report.degenerate_faces;
+        if (!mesh->is_degenerate(f)) continue;
+        ++report.degenerate_faces;
+        ++mesh->components_[mesh->face_components_[f]].degenerate_faces;
     }
     return mesh;
+}
+
+bool ShadowMesh::is_degenerate(std::size_t face) const {
+    return internal::is_degenerate(planes_, face);
 }
 
 }  // namespace gnomon::shadows

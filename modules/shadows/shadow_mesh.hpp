@@ -61,13 +61,20 @@ struct FaceUse {
     std::int32_t sign = 0;
 };
 
-/// Faces connected through edges.
+/// Faces connected through edges. How it casts: topology.hpp.
 struct Component {
     bool closed = false;      ///< every edge's signed sum of face uses is zero
     bool inside_out = false;  ///< closed, with a signed volume that is negative for certain
     glm::vec3 bounds_min{0.0F};
     glm::vec3 bounds_max{0.0F};
     std::uint64_t faces = 0;
+    // As in MeshReport, of this component alone.
+    std::uint64_t edges = 0;
+    std::uint64_t boundary_edges = 0;
+    std::uint64_t non_manifold_edges = 0;
+    std::uint64_t inconsistent_edges = 0;
+    std::uint64_t unbalanced_edges = 0;
+    std::uint64_t degenerate_faces = 0;
 };
 
 /// The planes of all faces, for the first stage of the facing test (facing.hpp), which takes
@@ -102,11 +109,16 @@ public:
     [[nodiscard]] std::span<const std::array<std::uint32_t, 3>> faces() const { return faces_; }
     [[nodiscard]] std::span<const Edge> edges() const { return edges_; }
     [[nodiscard]] std::span<const FaceUse> uses() const { return uses_; }
+    [[nodiscard]] std::span<const FaceUse> uses(const Edge& edge) const {
+        return std::span(uses_).subspan(edge.first_use, edge.use_count);
+    }
     [[nodiscard]] std::span<const Component> components() const { return components_; }
     [[nodiscard]] std::span<const std::uint32_t> face_components() const {
         return face_components_;
     }
     [[nodiscard]] const FacePlanes& planes() const { return planes_; }
+    /// Whether a face has no area, exactly; it casts nothing.
+    [[nodiscard]] bool is_degenerate(std::size_t face) const;
     [[nodiscard]] glm::vec3 bounds_min() const { return bounds_min_; }
     [[nodiscard]] glm::vec3 bounds_max() const { return bounds_max_; }
 

@@ -21,7 +21,10 @@ protected:
 
 TEST_F(Usage, help_and_version_end_well) {
     EXPECT_THAT(run_well({"--help"}).output, HasSubstr("render"));
-    EXPECT_THAT(run_well({"inspect", "--help"}).output, HasSubstr("--json"));
+    const std::string inspect_help = run_well({"inspect", "--help"}).output;
+    for (const char* word : {"--json", "--obj", "two-sided", "64 light directions"}) {
+        EXPECT_THAT(inspect_help, HasSubstr(word));
+    }
     EXPECT_THAT(run_well({"--version"}).output, testing::ContainsRegex("^[0-9]+\\.[0-9]+"));
     const std::string help = run_well({"render", "--help"}).output;
     for (const char* option :

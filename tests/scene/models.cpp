@@ -17,15 +17,12 @@
 
 #include <gnomon/scene/gltf.hpp>
 
+#include "tests/support/models.hpp"
+
 namespace gnomon::scene {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path models_folder() {
-    if (const char* set = std::getenv("GNOMON_MODELS")) return set;
-    return fs::path(GNOMON_SOURCE_DIR) / ".." / "shared" / "models";
-}
 
 std::size_t drawn_triangles(const Scene& scene) {
     std::size_t count = 0;
@@ -34,31 +31,19 @@ std::size_t drawn_triangles(const Scene& scene) {
     return count;
 }
 
-std::vector<std::string> cells_of(const std::string& row) {
-    std::vector<std::string> cells;
-    std::stringstream stream(row);
-    std::string cell;
-    std::getline(stream, cell, '|');  // before the first bar
-    while (std::getline(stream, cell, '|')) {
-        const std::size_t first = cell.find_first_not_of(' ');
-        const std::size_t last = cell.find_last_not_of(' ');
-        cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-    }
-    return cells;
-}
-
 struct Expected {
     std::size_t triangles = 0;
     std::optional<glm::dvec3> box;
     std::size_t lights = 0;
 };
 
-/// "160" or "160 (5440)": what is drawn is in the brackets, if any. False for other text.
-bool read_triangles(const std::string& cell, std::size_t& triangles) {
+/// "160" or "160 (5440)": what is drawn is in the brackets, if any.
+std::size_t read_triangles(const std::string& cell) {
     std::istringstream stream(cell);
-    if (!(stream >> triangles)) return false;
+    std::size_t triangles = 0;
+    stream >> triangles;
     if (char bracket = 0; stream >> bracket) stream >> triangles;
-    return true;
+    return triangles;
 }
 
 /// "1 x 2.5 x 0"
@@ -70,54 +55,33 @@ std::optional<glm::dvec3> read_box(const std::string& cell) {
     return std::nullopt;
 }
 
-/// The rows of the manifest's tables that have triangle counts, by file name.
-std::map<std::string, Expected> read_manifest(const fs::path& path) {
-    std::map<std::string, Expected> rows;
-    std::ifstream stream(path);
-    std::vector<std::string> header;
-    for (std::string line; std::getline(stream, line);) {
-        if (line.empty() || line[0] != '|') {
-            header.clear();
-            continue;
-        }
-        const std::vector<std::string> cells = cells_of(line);
-        if (header.empty()) {
-            header = cells;
-            continue;
-        }
-        std::map<std::string, std::string> row;
-        for (std::size_t i = 0; i < std::min(cells.size(), header.size()); ++i) {
-            row[header[i]] = cells[i];
-        }
-        Expected expected;
-        if (!read_triangles(row["triangles (drawn)"], expected.triangles)) continue;
-        expected.box = read_box(row["box x y z"]);
-        const std::string counts = row["meshes / nodes / skins / anims / lights"];
-        expected.lights = std::stoul(counts.substr(counts.rfind('/') + 1));
-        rows[row["file"]] = expected;
-    }
-    return rows;
+Expected expected_of(test::ManifestRow row) {
+    Expected expected;
+    expected.triangles = read_triangles(row["triangles (drawn)"]);
+    expected.box = read_box(row["box x y z"]);
+    const std::string counts = row["meshes / nodes / skins / anims / lights"];
+    expected.lights = std::stoul(counts.substr(counts.rfind('/') + 1));
+    return expected;
 }
 
 class Manifest : public testing::Test {
 protected:
     void SetUp() override {
-        if (!fs::exists(models_folder() / "MANIFEST.md")) {
-            GTEST_SKIP() << "no models: " << models_folder() / "MANIFEST.md"
+        if (!fs::exists(test::models_folder() / "MANIFEST.md")) {
+            GTEST_SKIP() << "no models: " << test::models_folder() / "MANIFEST.md"
                          << " is not there";
         }
-        for (const auto& entry : fs::recursive_directory_iterator(models_folder())) {
-            if (entry.path().extension() == ".glb") files_[entry.path().filename()] = entry.path();
-        }
+        files_ = test::model_files();
     }
     std::map<std::string, fs::path> files_;
 };
 
 TEST_F(Manifest, every_file_has_the_triangles_and_the_size_that_it_lists) {
-    const auto rows = read_manifest(models_folder() / "MANIFEST.md");
+    const auto rows = test::read_manifest();
     ASSERT_EQ(rows.size(), files_.size());
-    for (const auto& [name, expected] : rows) {
+    for (const auto& [name, row] : rows) {
         SCOPED_TRACE(name);
+        const Expected expected = expected_of(row);
         ASSERT_TRUE(files_.count(name));
         const auto scene = load_gltf(files_[name]);
         ASSERT_TRUE(scene) << scene.error().message;

@@ -9,7 +9,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -23,18 +22,13 @@
 #include "tests/rows/picture.hpp"
 #include "tests/rows/rows.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/support/models.hpp"
 
 namespace gnomon::test {
 namespace {
 
 constexpr std::uint32_t width = 640;
 constexpr std::uint32_t height = 360;
-
-std::filesystem::path models_folder() {
-    const char* folder = std::getenv("GNOMON_MODELS");
-    return folder != nullptr ? std::filesystem::path(folder)
-                             : std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/models";
-}
 
 // The file's lights, else a sun; framed from three quarters.
 Setting setting_of(const std::filesystem::path& file) {
