@@ -4,9 +4,7 @@
 // its MANIFEST.md tells what must come out. The other files are those of Debian's
 // assimp-testmodels.
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
