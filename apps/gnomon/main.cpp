@@ -153,6 +153,15 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
             },
             "Depth-pass, depth-fail, or chosen per caster and light (auto)")
         ->check(CLI::IsMember({"auto", "zpass", "zfail"}));
+    render
+        ->add_option_function<std::string>(
+            "--caps",
+            [&o](const std::string& text) {
+                if (text == "averted") o.near_caps = shadows::NearCaps::Averted;
+            },
+            "Which faces of closed casters carry near caps; averted: those turned away from the "
+            "light, which smooth normals alone then shade. Default facing")
+        ->check(CLI::IsMember({"facing", "averted"}));
     render->add_option("--silhouette", o.silhouette, "How silhouettes are found")
         ->type_name("auto|NAME");
     render->add_flag("--list-silhouettes", list_silhouettes, "List the names for --silhouette");

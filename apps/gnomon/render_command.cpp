@@ -63,9 +63,13 @@ private:
 };
 
 Status Run::start() {
+    const auto averted_faces = options_.near_caps == shadows::NearCaps::Averted
+                                   ? shadow_pass::AvertedFaces::LeftToShading
+                                   : shadow_pass::AvertedFaces::Shadowed;
     auto renderer = render::Renderer::create(device_, {.width = options_.size.width,
                                                        .height = options_.size.height,
                                                        .sample_count = options_.samples,
+                                                       .averted_faces = averted_faces,
                                                        .cull_back_faces = options_.cull_back,
                                                        .overlays = options_.overlays});
     if (!renderer) return forward_error(renderer);
@@ -98,8 +102,9 @@ Status Run::frame(std::uint32_t index, bool last) {
     FrameRecord record;
 
     auto frame = system_.begin_frame();
-    if (const Status submitted = adapter_.submit(shot_.scene, frame, options_.cull_back);
-        !submitted) {
+    const Status submitted =
+        adapter_.submit(shot_.scene, frame, options_.cull_back, options_.near_caps);
+    if (!submitted) {
         return fail(submitted.error().code,
                     fmt::format("{}: {}", options_.scene, submitted.error().message));
     }

@@ -11,6 +11,7 @@
 
 #include <glm/glm.hpp>
 
+#include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/technique.hpp>
 
 #include "arguments.hpp"
@@ -35,6 +36,7 @@ struct RenderOptions {
     std::optional<std::string> receivers = std::nullopt;  ///< glob; none: all
     bool cull_back = false;
     std::optional<shadows::Technique> technique = std::nullopt;
+    shadows::NearCaps near_caps = shadows::NearCaps::Facing;
     std::string silhouette = "auto";
     render::Overlays overlays = {};
     std::uint32_t frames = 1;

@@ -129,7 +129,8 @@ Status Renderer::State::create() {
                                                   .sample_count = desc.sample_count,
                                                   .color_formats = {internal::radiance_format},
                                                   .extrusion = desc.extrusion,
-                                                  .silhouette_lines = desc.overlays.silhouettes});
+                                                  .silhouette_lines = desc.overlays.silhouettes,
+                                                  .averted_faces = desc.averted_faces});
     if (!pass) return forward_error(pass);
     shadows = std::move(*pass);
     auto made_pipelines =
@@ -232,8 +233,10 @@ Status Renderer::State::write_frame_uniforms(const FrameInput& input,
     const internal::AmbientUniforms ambient = internal::ambient_uniforms(input.view);
     std::memcpy(bytes.data(), &ambient, sizeof ambient);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        std::memcpy(bytes.data() + (1 + i) * uniform_stride, &lights[i].uniforms,
-                    sizeof(internal::LightUniforms));
+        internal::LightUniforms uniforms = lights[i].uniforms;
+        const bool fades = desc.averted_faces == shadow_pass::AvertedFaces::Shadowed;
+        uniforms.spot_range.z = fades ? 1.0F : 0.0F;
+        std::memcpy(bytes.data() + (1 + i) * uniform_stride, &uniforms, sizeof uniforms);
     }
     return write(frame, "frame", pipelines.frame_layout, 0, sizeof(internal::LightUniforms), bytes);
 }

@@ -37,7 +37,10 @@ struct RendererDesc {
     gpu::Format depth_stencil_format = gpu::Format::Depth32FloatStencil8;
     shadow_pass::ExtrusionPath extrusion = shadow_pass::ExtrusionPath::VertexShader;
     gpu::Compare volume_depth_compare =
-        gpu::Compare::Greater;     ///< for experiments: anything else is wrong here
+        gpu::Compare::Greater;  ///< for experiments: anything else is wrong here
+    /// LeftToShading goes with casters of shadows::NearCaps::Averted: their faces are then shaded
+    /// by smooth normals alone, where otherwise light that grazes a triangle fades out.
+    shadow_pass::AvertedFaces averted_faces = shadow_pass::AvertedFaces::Shadowed;
     bool cull_back_faces = false;  ///< default: both sides of every triangle go into depth
     Overlays overlays = {};
 };

@@ -55,7 +55,8 @@ Result<std::shared_ptr<const shadows::ShadowMesh>> ShadowAdapter::shadow_mesh(
     return known.shadow_mesh;
 }
 
-Status ShadowAdapter::submit(const Scene& scene, shadows::ShadowSystem::Frame& frame, bool culled) {
+Status ShadowAdapter::submit(const Scene& scene, shadows::ShadowSystem::Frame& frame, bool culled,
+                             shadows::NearCaps near_caps) {
     Status status;
     scene.registry.each<Caster, MeshInstance, WorldTransform>([&](Entity entity, const Caster&,
                                                                   const MeshInstance& instance,
@@ -65,10 +66,12 @@ Status ShadowAdapter::submit(const Scene& scene, shadows::ShadowSystem::Frame& f
             status = forward_error(mesh);
             return;
         }
+        const bool drawn_whole = fills_depth(scene, entity, *instance.mesh);
         frame.caster({.key = entity.key(),
                       .mesh = *mesh,
                       .world_from_local = world_from_mesh(transform, *instance.mesh),
-                      .in_depth_buffer = !culled && fills_depth(scene, entity, *instance.mesh)});
+                      .in_depth_buffer = !culled && drawn_whole,
+                      .near_caps = drawn_whole ? near_caps : shadows::NearCaps::Facing});
     });
     const auto submit_light = [&](Entity entity, const auto&) {
         if (const auto light = shadow_light(scene.registry, entity)) frame.light(*light);

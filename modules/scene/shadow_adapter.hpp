@@ -20,10 +20,13 @@ namespace gnomon::scene {
 class ShadowAdapter {
 public:
     /// Submits every Caster and every light. Shadow meshes are made the first time a mesh is met
-    /// and kept while it lives. `culled`: back faces are not drawn, so depth-pass needs caps. Fails
-    /// when a mesh is not acceptable to ShadowMesh::build. Cost: a look-up a caster.
+    /// and kept while it lives. `culled`: back faces are not drawn, so depth-pass needs caps.
+    /// `near_caps` is for casters that are drawn whole; what is hidden or alpha-tested may have
+    /// something to be seen inside and keeps its caps towards the light. Fails when a mesh is not
+    /// acceptable to ShadowMesh::build. Cost: a look-up a caster.
     [[nodiscard]] Status submit(const Scene& scene, shadows::ShadowSystem::Frame& frame,
-                                bool culled = false);
+                                bool culled = false,
+                                shadows::NearCaps near_caps = shadows::NearCaps::Facing);
 
     /// The shadow mesh of a mesh: one for all its nodes.
     [[nodiscard]] Result<std::shared_ptr<const shadows::ShadowMesh>> shadow_mesh(

@@ -25,11 +25,36 @@ struct VolumeUniforms {
     glm::vec4 far_scale;
 };
 
+// What a run of indices is, as far as the depth test is concerned.
+enum class Role : std::uint8_t {
+    Volume,   // sides and far caps; near caps too where they are not biased
+    Cap,      // near caps, moved away from the eye: behind the surface that they lie on
+    OpenCap,  // of averted faces left to shading: in front of it
+};
+constexpr std::size_t role_count = 3;
+
+bool is_reversed(gpu::Compare compare) {
+    return compare == gpu::Compare::Greater || compare == gpu::Compare::GreaterEqual;
+}
+
+// "In front of", equality included.
+gpu::Compare or_equal(gpu::Compare compare) {
+    return is_reversed(compare) ? gpu::Compare::GreaterEqual : gpu::Compare::LessEqual;
+}
+
 // Front and back are named from outside the volume. Depth-fail counts faces behind the surface
 // (equality included: comparison is strict, and caps lie on surfaces), depth-pass those in front.
-gpu::DepthStencilState counting(const ShadowPassDesc& desc, Technique technique, bool exchanged) {
+gpu::DepthStencilState counting(const ShadowPassDesc& desc, Technique technique, bool exchanged,
+                                Role role) {
     gpu::DepthStencilState state{.format = desc.depth_stencil_format,
                                  .depth_compare = desc.depth_compare};
+    if (role == Role::OpenCap) state.depth_compare = or_equal(desc.depth_compare);
+    if (role != Role::Volume) {
+        const int nearer = is_reversed(desc.depth_compare) ? 1 : -1;
+        const int sign = role == Role::OpenCap ? nearer : -nearer;
+        state.depth_bias = sign * desc.cap_bias.constant;
+        state.depth_bias_slope_scale = static_cast<float>(sign) * desc.cap_bias.slope_scale;
+    }
     gpu::StencilFaceState up;
     gpu::StencilFaceState down;
     if (technique == Technique::DepthFail) {
@@ -47,9 +72,9 @@ gpu::DepthStencilState counting(const ShadowPassDesc& desc, Technique technique,
     return state;
 }
 
-std::size_t pipeline_index(Technique technique, bool exchanged, bool unclipped) {
+std::size_t pipeline_index(Technique technique, bool exchanged, bool unclipped, Role role) {
     return (technique == Technique::DepthFail ? 1U : 0U) + (exchanged ? 2U : 0U) +
-           (unclipped ? 4U : 0U);
+           (unclipped ? 4U : 0U) + 8U * static_cast<std::size_t>(role);
 }
 
 // A run of indices that one draw call takes.
@@ -57,26 +82,37 @@ struct Run {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
     bool flipped = false;
+    Role role = Role::Volume;
 };
 
-std::vector<Run> runs_of(const shadows::VolumeDraw& draw) {
+std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& desc) {
     const shadows::Volume& v = *draw.volume;
     const bool caps = draw.technique == Technique::DepthFail || draw.near_caps;
+    const Role cap = desc.cap_bias.none() ? Role::Volume : Role::Cap;
     std::vector<Run> runs;
-    std::uint32_t count = v.sides.count;
-    if (caps) count += v.near_cap.count;
+    const auto add = [&](std::uint32_t first, std::uint32_t count, bool flipped, Role role) {
+        if (count == 0) return;
+        // Ranges that follow each other and are drawn alike take one call.
+        if (!runs.empty() && runs.back().first + runs.back().count == first &&
+            runs.back().flipped == flipped && runs.back().role == role) {
+            runs.back().count += count;
+        } else {
+            runs.push_back({first, count, flipped, role});
+        }
+    };
+    add(v.sides.first, v.sides.count, false, Role::Volume);
+    if (caps) add(v.near_cap.first, v.near_cap.count, false, cap);
     // A far cap at infinity is never in front of anything; a finite one closes the volume for
     // depth-pass as well.
     if (draw.technique == Technique::DepthFail || draw.extrusion.offset.w != 0.0F) {
-        if (caps) {
-            count += v.far_cap.count;
-        } else {
-            runs.push_back({v.far_cap.first, v.far_cap.count, false});
-        }
+        add(v.far_cap.first, v.far_cap.count, false, Role::Volume);
     }
-    runs.push_back({0, count, false});
-    if (caps) runs.push_back({v.near_cap_flipped.first, v.near_cap_flipped.count, true});
-    std::erase_if(runs, [](const Run& run) { return run.count == 0; });
+    const bool open = desc.averted_faces == AvertedFaces::LeftToShading;
+    const std::uint32_t open_count = open ? v.near_cap_averted.count : 0;
+    if (caps) {
+        add(v.near_cap_flipped.first, v.near_cap_flipped.count - open_count, true, cap);
+    }
+    add(v.near_cap_averted.first, open_count, true, Role::OpenCap);
     return runs;
 }
 
@@ -98,7 +134,7 @@ struct ShadowPass::State {
     ShadowPassDesc desc;
     gpu::BindGroupLayout layout;
     gpu::Shader vertex;
-    std::array<gpu::RenderPipeline, 8> pipelines;
+    std::array<gpu::RenderPipeline, 8 * role_count> pipelines;
     std::uint32_t uniform_stride = 256;
     gpu::Buffer uniforms;
     std::uint64_t uniforms_size = 0;
@@ -182,19 +218,27 @@ Status ShadowPass::State::create_pipelines() {
         pipeline.targets.push_back({.format = format, .write_mask = gpu::ColorWrite::None});
     }
     pipeline.sample_count = desc.sample_count;
+    std::vector<Role> roles{Role::Volume};
+    if (!desc.cap_bias.none()) roles.push_back(Role::Cap);
+    if (desc.averted_faces == AvertedFaces::LeftToShading) roles.push_back(Role::OpenCap);
     for (const bool unclipped : {false, true}) {
         if (unclipped && !device->caps().features.unclipped_depth) continue;
         for (const bool exchanged : {false, true}) {
             for (const Technique technique : {Technique::DepthPass, Technique::DepthFail}) {
-                pipeline.label = std::string("shadow volume, ") +
-                                 (technique == Technique::DepthPass ? "depth-pass" : "depth-fail") +
-                                 (exchanged ? ", exchanged" : "") +
-                                 (unclipped ? ", unclipped" : "");
-                pipeline.primitive.unclipped_depth = unclipped;
-                pipeline.depth_stencil = counting(desc, technique, exchanged);
-                auto made = device->create_render_pipeline(pipeline);
-                if (!made) return forward_error(made);
-                pipelines[pipeline_index(technique, exchanged, unclipped)] = std::move(*made);
+                for (const Role role : roles) {
+                    pipeline.label =
+                        std::string("shadow volume, ") +
+                        (technique == Technique::DepthPass ? "depth-pass" : "depth-fail") +
+                        (exchanged ? ", exchanged" : "") + (unclipped ? ", unclipped" : "") +
+                        (role == Role::Cap ? ", biased caps" : "") +
+                        (role == Role::OpenCap ? ", open caps" : "");
+                    pipeline.primitive.unclipped_depth = unclipped;
+                    pipeline.depth_stencil = counting(desc, technique, exchanged, role);
+                    auto made = device->create_render_pipeline(pipeline);
+                    if (!made) return forward_error(made);
+                    pipelines[pipeline_index(technique, exchanged, unclipped, role)] =
+                        std::move(*made);
+                }
             }
         }
     }
@@ -318,6 +362,13 @@ void ShadowPass::State::free_unused() {
 }
 
 Result<ShadowPass> ShadowPass::create(gpu::Device& device, const ShadowPassDesc& desc) {
+    if (desc.cap_bias.constant < 0 || !(desc.cap_bias.slope_scale >= 0.0F)) {
+        return fail(ErrorCode::InvalidInput,
+                    "The cap bias of a shadow pass (constant " +
+                        std::to_string(desc.cap_bias.constant) + ", slope scale " +
+                        std::to_string(desc.cap_bias.slope_scale) +
+                        ") is below 0: it would move caps in front of lit surfaces.");
+    }
     auto state = std::make_unique<State>(device, desc);
     const std::uint32_t alignment = device.caps().limits.min_uniform_buffer_offset_alignment;
     const auto size = static_cast<std::uint32_t>(sizeof(VolumeUniforms));
@@ -363,7 +414,7 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         auto run = s.indices_of(draw);
         if (!run) return forward_error(run);
         s.recorded.push_back({*vertices, *run, draw.mirrored, unclipped, draw.technique,
-                              runs_of(draw), draw.volume});
+                              runs_of(draw, s.desc), draw.volume});
         s.stats.draw_calls += s.recorded.back().runs.size();
     }
     if (const Status written = s.write_uniforms(list, view); !written) return written;
@@ -384,7 +435,7 @@ void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) cons
         encoder.set_index_buffer(s.indices.buffer(volume.run.chunk), gpu::IndexFormat::Uint32);
         for (const Run& run : volume.runs) {
             const auto& pipeline = s.pipelines[pipeline_index(
-                volume.technique, volume.exchanged != run.flipped, volume.unclipped)];
+                volume.technique, volume.exchanged != run.flipped, volume.unclipped, run.role)];
             if (&pipeline != current) encoder.set_pipeline(pipeline);
             current = &pipeline;
             encoder.draw_indexed(run.count, 1, volume.run.first + run.first);

@@ -13,8 +13,9 @@
 //     }
 //
 // Depth is reversed (1 near, 0 far, cleared to 0) and must come from the same position function and
-// matrix product: clip_from_world(view) * world_from_local in double precision, rounded once
-// (docs/conventions.md).
+// matrix product: clip_from_world(view) * world_from_local in double precision, rounded once. Where
+// it cannot, casters ask for NearCaps::Averted and the pass for a cap bias (docs/conventions.md,
+// "Near caps on averted faces").
 #pragma once
 
 #include <cstdint>
@@ -35,6 +36,36 @@ enum class ExtrusionPath : std::uint8_t {
           ///< theirs
 };
 
+/// What the mask says on the averted faces of a solid that carry its near caps
+/// (shadows::NearCaps::Averted). On every other surface the mask is the same either way.
+enum class AvertedFaces : std::uint8_t {
+    /// In shadow, like everything behind the solid.
+    Shadowed,
+    /// Not shadowed by the solid itself; whether they are lit is left to shading, by N.L. So smooth
+    /// normals do not show the triangles where the light grazes them (the shadow terminator). Caps
+    /// on averted faces are drawn by depth-pass as well.
+    LeftToShading,
+};
+
+/// Moves near caps off the surfaces that they lie on, for a depth buffer that came from the host's
+/// own shaders: away from the eye, and with AvertedFaces::LeftToShading those on averted faces
+/// towards it. As gpu::DepthStencilState has it: `constant` in the depth buffer's smallest steps,
+/// `slope_scale` in steps of one pixel along the surface.
+///
+/// What may be decided wrongly is a surface that lies between a cap and where the bias moves it, and
+/// nothing else (docs/numerics.md, "Near caps").
+struct CapBias {
+    std::int32_t constant = 0;
+    float slope_scale = 0.0F;
+
+    [[nodiscard]] bool none() const { return constant == 0 && slope_scale == 0.0F; }
+};
+
+/// Enough, as measured in docs/numerics.md, for a host that multiplies its matrices one after the
+/// other in single precision, in a world whose origin is the eye. The slope covers vertices that
+/// snap to a neighbouring place on the rasteriser's grid, of 1/256 pixel, in x and in y; twice.
+inline constexpr CapBias usual_cap_bias{4, 1.0F / 64.0F};
+
 struct ShadowPassDesc {
     gpu::Format depth_stencil_format = gpu::Format::Depth32FloatStencil8;
     /// "In front of", strictly: caps lie on surfaces, and equality must count as behind. Less where
@@ -46,6 +77,8 @@ struct ShadowPassDesc {
     ExtrusionPath extrusion = ExtrusionPath::VertexShader;
     bool silhouette_lines =
         false;  ///< also uploads silhouette edges as lines, for Part::Silhouettes
+    AvertedFaces averted_faces = AvertedFaces::Shadowed;
+    CapBias cap_bias = {};  ///< both values >= 0; none where depth comes from the shared function
 };
 
 /// What a debug view may draw of a volume.
@@ -64,7 +97,8 @@ struct PassStats {
 
 class ShadowPass {
 public:
-    /// The device must outlive the pass. Fails as the device's create functions do.
+    /// The device must outlive the pass. Fails as the device's create functions do, and with
+    /// ErrorCode::InvalidInput for a cap bias that is negative.
     [[nodiscard]] static Result<ShadowPass> create(gpu::Device& device, const ShadowPassDesc& desc);
     ShadowPass(ShadowPass&&) noexcept;
     ShadowPass& operator=(ShadowPass&&) noexcept;

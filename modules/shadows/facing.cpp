@@ -94,19 +94,30 @@ double distance_to_boundary(const Component& component, const glm::vec3& p) {
 // What the faces of a component weigh that are averted, edge-on and facing.
 using Casting = std::array<std::int8_t, 3>;
 
-Casting casting_of(const Component& component, LightLocal light) {
-    const bool one_sided = component.closed && (light.is_directional() ||
-                                                !inside(component, glm::vec3(light.position)));
+bool is_one_sided(const Component& component, LightLocal light) {
+    return component.closed &&
+           (light.is_directional() || !inside(component, glm::vec3(light.position)));
+}
+
+Casting casting_of(const Component& component, bool one_sided, NearCaps near_caps) {
     if (!one_sided) return {-1, 0, 1};
-    return component.inside_out ? Casting{-1, 0, 0} : Casting{0, 0, 1};
+    // What is inside out is a hollow in a solid: its averted faces are those that the light meets
+    // first, and they hide the hollow from the light whichever kind was asked for.
+    if (component.inside_out || near_caps == NearCaps::Averted) return {-1, 0, 0};
+    return {0, 0, 1};
 }
 
 // Turns sides into weights, in place.
-void weigh(const ShadowMesh& mesh, LightLocal light, std::span<std::int8_t> sides) {
+void weigh(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps, Facing& out) {
+    const std::span<std::int8_t> sides(out.weights);
     std::vector<Casting> castings;
     castings.reserve(mesh.components().size());
+    out.solid_averted.clear();
     for (const Component& component : mesh.components()) {
-        castings.push_back(casting_of(component, light));
+        const bool one_sided = is_one_sided(component, light);
+        castings.push_back(casting_of(component, one_sided, near_caps));
+        const bool solid = one_sided && !component.inside_out;
+        out.solid_averted.push_back(solid && near_caps == NearCaps::Averted ? 1 : 0);
     }
     const bool uniform = std::adjacent_find(castings.begin(), castings.end(),
                                             std::not_equal_to<>()) == castings.end();
@@ -127,12 +138,14 @@ bool is_finite(const glm::vec3& p) {
 
 }  // namespace
 
-void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out, FacingFilter filter) {
+void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out, NearCaps near_caps,
+                    FacingFilter filter) {
     const glm::vec3 l(light.position);
     out.stats = {};
     out.stats.faces = mesh.faces().size();
     if (!is_finite(l)) {
         out.weights.assign(mesh.faces().size(), 0);
+        out.solid_averted.assign(mesh.components().size(), 0);
         out.margin = 0.0;
         return;
     }
@@ -143,7 +156,7 @@ void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out, Facin
                               : internal::filter_scalar(mesh.planes(), filtered, out.weights);
     double margin = static_cast<double>(nearest) * internal::plane_shrink;
     margin = std::min(margin, decide_the_rest(mesh, light, out));
-    weigh(mesh, light, out.weights);
+    weigh(mesh, light, near_caps, out);
 
     if (light.is_directional()) {
         const double length = glm::length(glm::dvec3(l));
@@ -168,6 +181,7 @@ void classify_faces_flattened(const ShadowMesh& mesh, const glm::dmat4& parent_f
     out.stats.faces = faces.size();
     out.stats.double_tests = faces.size();
     out.weights.assign(faces.size(), 0);
+    out.solid_averted.assign(mesh.components().size(), 0);
     out.margin = 0.0;
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const glm::dvec3 a = place(faces[f][0]);

@@ -55,18 +55,20 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
         classify_faces_flattened(mesh, parent_from_local, world - glm::dvec4(world.w * origin, 0.0),
                                  scratch.facing);
     } else {
-        classify_faces(mesh, pair.current, scratch.facing);
+        classify_faces(mesh, pair.current, scratch.facing, caster.caster.near_caps);
     }
     strategy.find(mesh, scratch.facing.weights, scratch.silhouette);
     const auto detected = Clock::now();
 
     auto volume = std::make_shared<Volume>();
     build_volume(mesh, scratch.facing.weights, scratch.silhouette,
-                 light.light.position_world.w == 0.0, far_vertices, *volume);
+                 light.light.position_world.w == 0.0, far_vertices, *volume,
+                 scratch.facing.solid_averted);
     pair.mesh = caster.caster.mesh;
     pair.volume = std::move(volume);
     pair.volume_revision = next_volume_revision();
     pair.far_vertices = far_vertices;
+    pair.near_caps = caster.caster.near_caps;
     pair.flattened = caster.pose.singular;
     pair.detected = pair.current;
     pair.margin = scratch.facing.margin;
@@ -120,7 +122,10 @@ Reason update_pair(PairState& pair, const CasterState& caster, const LightState&
         reason = Reason::MeshChanged;
     } else if (!is_new && pair.far_vertices != far_vertices) {
         reason = Reason::ProjectionChanged;
+    } else if (!is_new && pair.near_caps != caster.caster.near_caps) {
+        reason = Reason::NearCapsChanged;
     }
+    const bool asked_anew = reason != Reason::Unchanged;
 
     if (!same_poses || is_new) {
         if (caster.pose.singular) {
@@ -150,7 +155,7 @@ Reason update_pair(PairState& pair, const CasterState& caster, const LightState&
         pair.nearest_face = -1.0;  // in metres: a caster scaled about the light changes it as well
     }
     if (is_new) reason = Reason::New;
-    if (light_is_new || reason == Reason::MeshChanged || reason == Reason::ProjectionChanged) {
+    if (light_is_new || asked_anew) {
         detect(pair, caster, light, far_vertices, strategy, scratch, stats);
     } else {
         ++stats.pairs_reused;

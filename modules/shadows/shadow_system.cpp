@@ -91,6 +91,7 @@ std::string_view to_string(Reason reason) {
         case Reason::BothMoved: return "both moved";
         case Reason::MeshChanged: return "mesh changed";
         case Reason::ProjectionChanged: return "projection changed";
+        case Reason::NearCapsChanged: return "near caps changed";
         case Reason::OutOfRange: return "out of range";
     }
     return "";

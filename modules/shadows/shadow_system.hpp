@@ -40,6 +40,8 @@ struct Caster {
     /// Every casting face is in the depth buffer: drawn, unculled, undiscarded. Then depth-pass
     /// needs no near caps.
     bool in_depth_buffer = true;
+    /// Averted: for casters in a depth buffer that came from the host's own shaders.
+    NearCaps near_caps = NearCaps::Facing;
 };
 
 /// Why a pair's volume is what it is this frame.
@@ -54,9 +56,10 @@ enum class Reason : std::uint8_t {
     BothMoved,
     MeshChanged,
     ProjectionChanged,  ///< other far vertices are needed; detected anew as well
+    NearCapsChanged,    ///< Caster::near_caps did; detected anew as well
     OutOfRange,         ///< the caster is beyond the light's range: no volume
 };
-inline constexpr std::size_t reason_count = 9;
+inline constexpr std::size_t reason_count = 10;
 [[nodiscard]] std::string_view to_string(Reason reason);
 
 /// One volume to draw.

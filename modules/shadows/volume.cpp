@@ -40,7 +40,8 @@ struct Writer {
 
 void build_volume(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
                   std::span<const SilhouetteEdge> silhouette, bool directional,
-                  FarVertices far_vertices, Volume& out) {
+                  FarVertices far_vertices, Volume& out,
+                  std::span<const std::uint8_t> solid_averted) {
     out.indices.clear();
     out.silhouette_edges = static_cast<std::uint32_t>(silhouette.size());
     Writer write{out.indices};
@@ -89,14 +90,26 @@ void build_volume(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
     }
     out.far_cap = write.range_since(first);
 
-    first = out.indices.size();
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        for (int i = 0; i < -weights[f]; ++i) {
-            write.triangle(near_vertex(faces[f][0]), near_vertex(faces[f][1]),
-                           near_vertex(faces[f][2]));
+    const auto face_components = mesh.face_components();
+    const auto write_flipped = [&](bool averted) {
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            const bool is_averted =
+                !solid_averted.empty() && solid_averted[face_components[f]] != 0;
+            if (is_averted != averted) continue;
+            for (int i = 0; i < -weights[f]; ++i) {
+                write.triangle(near_vertex(faces[f][0]), near_vertex(faces[f][1]),
+                               near_vertex(faces[f][2]));
+            }
         }
-    }
+    };
+    first = out.indices.size();
+    write_flipped(false);
+    const std::size_t first_averted = out.indices.size();
+    const bool any_averted =
+        std::any_of(solid_averted.begin(), solid_averted.end(), [](auto a) { return a != 0; });
+    if (any_averted) write_flipped(true);
     out.near_cap_flipped = write.range_since(first);
+    out.near_cap_averted = write.range_since(first_averted);
 }
 
 bool is_closed(const Volume& volume, bool directional_at_infinity) {

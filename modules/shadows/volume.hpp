@@ -34,6 +34,9 @@ struct Volume {
     IndexRange far_cap;  ///< empty for a directional light with the far vertices at infinity: they
                          ///< all coincide
     IndexRange near_cap_flipped;
+    /// The last part of near_cap_flipped: the caps of solids that cast with their averted faces
+    /// (NearCaps::Averted). Every other near cap lies on a surface that light may reach.
+    IndexRange near_cap_averted;
     std::uint32_t silhouette_edges = 0;
 };
 
@@ -44,10 +47,13 @@ enum class FarVertices : std::uint8_t { AtInfinity, Finite };
 
 /// Builds the volume of weighted faces. Works for any weights; closed whatever they are. Side quads
 /// are split along the diagonal that starts at the lexicographically smaller position, so that
-/// casters which share an edge agree. Cost: linear in the faces with weight and the silhouette.
+/// casters which share an edge agree. `solid_averted` is Facing's, by component; it is what
+/// near_cap_averted is made from, and empty means none. Cost: linear in the faces with weight and
+/// the silhouette.
 void build_volume(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
                   std::span<const SilhouetteEdge> silhouette, bool directional,
-                  FarVertices far_vertices, Volume& out);
+                  FarVertices far_vertices, Volume& out,
+                  std::span<const std::uint8_t> solid_averted = {});
 
 /// True when the volume has no boundary, as integers: every directed edge is used as often as its
 /// opposite. For tests, fuzzers and tools. `directional_at_infinity`: all far vertices are one

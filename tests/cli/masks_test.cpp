@@ -100,6 +100,22 @@ TEST_P(Masks, techniques_agree) {
     }
 }
 
+TEST_P(Masks, averted_caps_leave_averted_faces_to_shading) {
+    const Arguments averted{"--caps", "averted"};
+    const std::string scene = "builtin:still-life";
+    const Mask facing = mask(scene, {"--caps", "facing"});
+    EXPECT_EQ(facing.bytes, mask(scene).bytes) << "the default";
+    const Mask open = mask(scene, averted);
+    EXPECT_LT(open.covered(), facing.covered());
+    for (std::size_t i = 0; i < open.bytes.size(); ++i)
+        ASSERT_LE(static_cast<std::uint8_t>(open.bytes[i]),
+                  static_cast<std::uint8_t>(facing.bytes[i]))
+            << i;
+    EXPECT_EQ(mask(scene, joined(averted, {"--technique", "zpass"})).bytes, open.bytes);
+    EXPECT_EQ(mask(scene, joined(averted, {"--technique", "zfail"})).bytes, open.bytes);
+    EXPECT_NE(picture("builtin:knot", averted), picture("builtin:knot"));
+}
+
 TEST_P(Masks, two_runs_give_the_same_bytes) {
     const Arguments moving{"--frames", "3", "--animate", "light:10", "--stencil", "m"};
     const std::string first = picture("builtin:still-life", moving);

@@ -27,12 +27,18 @@ TEST_F(Usage, help_and_version_end_well) {
     }
     EXPECT_THAT(run_well({"--version"}).output, testing::ContainsRegex("^[0-9]+\\.[0-9]+"));
     const std::string help = run_well({"render", "--help"}).output;
-    for (const char* option :
-         {"--out",       "--stencil",         "--stats",   "--backend",   "--gl-stencil",
-          "--size",      "--samples",         "--eye",     "--target",    "--up",
-          "--fovy",      "--light",           "--casters", "--receivers", "--cull",
-          "--technique", "--silhouette",      "--show",    "--frames",    "--animate",
-          "--near",      "--list-silhouettes"}) {
+    for (const char* option : {"--out",        "--stencil",
+                               "--stats",      "--backend",
+                               "--gl-stencil", "--size",
+                               "--samples",    "--eye",
+                               "--target",     "--up",
+                               "--fovy",       "--light",
+                               "--casters",    "--receivers",
+                               "--cull",       "--technique",
+                               "--silhouette", "--show",
+                               "--frames",     "--animate",
+                               "--near",       "--list-silhouettes",
+                               "--caps"}) {
         EXPECT_THAT(help, HasSubstr(option));
     }
 }
@@ -94,6 +100,7 @@ TEST_F(Usage, values_out_of_range_are_refused_by_option) {
                                      {"--light", ""},
                                      {"--light", "dir:0,0,0"},
                                      {"--cull", "front"},
+                                     {"--caps", "back"},
                                      {"--technique", "zpas"},
                                      {"--show", "everything"},
                                      {"--show", ""},

@@ -36,6 +36,7 @@ Result<Picture> take_picture(gpu::Device& device, const Setting& setting,
                                           .depth_stencil_format = options.depth_stencil_format,
                                           .extrusion = options.extrusion,
                                           .volume_depth_compare = options.volume_depth_compare,
+                                          .averted_faces = options.averted_faces,
                                           .cull_back_faces = options.cull_back_faces});
     if (!renderer) return forward_error(renderer);
     if (const Status uploaded = renderer->upload(setting.scene); !uploaded)
@@ -44,7 +45,8 @@ Result<Picture> take_picture(gpu::Device& device, const Setting& setting,
     if (!system) return forward_error(system);
     scene::ShadowAdapter adapter;
     auto frame = system->begin_frame();
-    const Status submitted = adapter.submit(setting.scene, frame, options.cull_back_faces);
+    const Status submitted =
+        adapter.submit(setting.scene, frame, options.cull_back_faces, options.near_caps);
     if (!submitted) return forward_error(submitted);
 
     Picture picture;

@@ -28,6 +28,8 @@ struct PictureOptions {
     gpu::Format depth_stencil_format = gpu::Format::Depth32FloatStencil8;
     shadow_pass::ExtrusionPath extrusion = shadow_pass::ExtrusionPath::VertexShader;
     std::optional<shadows::Technique> technique = std::nullopt;
+    shadows::NearCaps near_caps = shadows::NearCaps::Facing;
+    shadow_pass::AvertedFaces averted_faces = shadow_pass::AvertedFaces::Shadowed;
     bool cull_back_faces = false;
     gpu::Compare volume_depth_compare = gpu::Compare::Greater;
     std::function<void(shadows::DrawList&)> mutate =

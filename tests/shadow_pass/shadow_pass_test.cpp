@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -37,14 +38,19 @@ struct World {
     double angle = 0.0;
     glm::dvec4 light{2.0, 4.0, 1.0, 1.0};
     int casters = 5;
+    shadows::NearCaps near_caps = shadows::NearCaps::Facing;
+    bool in_depth_buffer = true;
 
     shadows::DrawList frame(const shadows::View& view) {
         auto frame = system.begin_frame();
         for (int i = 0; i < casters; ++i) {
             glm::dmat4 pose = glm::translate(glm::dmat4(1.0), glm::dvec3(i, 0, 0));
             if (i == 0) pose = glm::rotate(pose, angle, glm::dvec3(0, 1, 0));
-            frame.caster(
-                {.key = static_cast<std::uint64_t>(i), .mesh = mesh, .world_from_local = pose});
+            frame.caster({.key = static_cast<std::uint64_t>(i),
+                          .mesh = mesh,
+                          .world_from_local = pose,
+                          .in_depth_buffer = in_depth_buffer,
+                          .near_caps = near_caps});
         }
         frame.light({.key = 1, .position_world = light});
         return std::move(frame).finish(view);
@@ -123,6 +129,42 @@ TEST(ShadowPass, records_one_draw_a_volume_and_as_many_as_it_says) {
     EXPECT_EQ(pass.stats().draw_calls, 5U);
 }
 
+// How many draws five casters take, all of them by depth-pass.
+std::uint64_t draws_of(World world, const ShadowPassDesc& desc) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, desc);
+    const shadows::View view = perspective_view();
+    const shadows::DrawList list = world.frame(view);
+    EXPECT_EQ(list.stats.zpass_pairs, 5U);
+    EXPECT_TRUE(pass.prepare(list, view));
+    EXPECT_EQ(recorded_draws(device, pass), pass.stats().draw_calls);
+    return pass.stats().draw_calls;
+}
+
+TEST(ShadowPass, biased_caps_take_a_draw_of_their_own) {
+    const ShadowPassDesc biased{.cap_bias = {.constant = 4}};
+    EXPECT_EQ(draws_of({}, biased), 5U) << "no caps, no bias";
+    EXPECT_EQ(draws_of({.in_depth_buffer = false}, {}), 5U);
+    EXPECT_EQ(draws_of({.in_depth_buffer = false}, biased), 10U);
+}
+
+TEST(ShadowPass, averted_caps_left_to_shading_are_drawn_by_depth_pass_as_well) {
+    const ShadowPassDesc open{.averted_faces = AvertedFaces::LeftToShading};
+    EXPECT_EQ(draws_of({}, open), 5U) << "caps towards the light are never left to shading";
+    EXPECT_EQ(draws_of({.near_caps = shadows::NearCaps::Averted}, {}), 5U);
+    EXPECT_EQ(draws_of({.near_caps = shadows::NearCaps::Averted}, open), 10U);
+}
+
+TEST(ShadowPass, refuses_a_cap_bias_towards_the_eye) {
+    gpu::Device device(gpu::create_null_backend());
+    for (const CapBias bias : {CapBias{-1, 0.0F}, CapBias{0, -0.5F}, CapBias{0, NAN}}) {
+        const auto refused = ShadowPass::create(device, {.cap_bias = bias});
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
+        EXPECT_NE(refused.error().message.find("cap bias"), std::string::npos);
+    }
+}
+
 TEST(ShadowPass, refuses_depth_fail_under_a_far_plane_without_unclipped_depth) {
     gpu::NullBackendOptions options;
     options.features.unclipped_depth = false;
@@ -150,7 +192,9 @@ TEST(ShadowPass, survives_a_device_that_fails_anywhere) {
         gpu::Device device(gpu::create_fault_backend(gpu::create_null_backend(), plan));
         {
             World world;
-            auto pass = ShadowPass::create(device, {});
+            // With every kind of pipeline there is.
+            auto pass = ShadowPass::create(
+                device, {.averted_faces = AvertedFaces::LeftToShading, .cap_bias = {4, 1.0F}});
             succeeded = pass.has_value();
             if (pass) {
                 const Status prepared = pass->prepare(world.frame(view), view);

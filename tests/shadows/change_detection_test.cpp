@@ -255,6 +255,47 @@ TEST_F(ChangeDetection, AReplacedMeshIsSeen) {
     expect_as_from_nothing(list);
 }
 
+TEST_F(ChangeDetection, AnotherKindOfNearCapsIsDetectedOnce) {
+    const std::uint64_t revision = frame().draws[0].revision;
+    casters_[0].near_caps = NearCaps::Averted;
+    const DrawList asked = frame();
+    EXPECT_EQ(count(asked, Reason::NearCapsChanged), 1U);
+    EXPECT_EQ(asked.stats.pairs_redetected, 1U);
+    EXPECT_NE(asked.draws[0].revision, revision);
+    EXPECT_GT(asked.draws[0].volume->near_cap_averted.count, 0U);
+    expect_as_from_nothing(asked);
+    EXPECT_EQ(frame().stats.pairs_redetected, 0U);
+    // Together with a move the reason is the caps: the move alone might have cost nothing.
+    casters_[0].near_caps = NearCaps::Facing;
+    casters_[0].world_from_local = translation({0.5, 0, 0});
+    const DrawList back = frame();
+    EXPECT_EQ(count(back, Reason::NearCapsChanged), 1U);
+    EXPECT_EQ(back.draws[0].volume->near_cap_averted.count, 0U);
+    expect_as_from_nothing(back);
+}
+
+TEST_F(ChangeDetection, CapsOnAvertedFacesAreReusedAsOthersAre) {
+    GNOMON_RANDOM(random);
+    casters_[0].near_caps = NearCaps::Averted;
+    const std::uint64_t revision = frame().draws[0].revision;
+    for (int i = 0; i < 100; ++i) {
+        const glm::dmat4 motion = translation(random.in_cube(1e4)) * glm::dmat4(random.rotation());
+        casters_[0].world_from_local = motion;
+        lights_[0].position_world = motion * point({3, 7, 2});
+        View view = some_view();
+        view.view_from_world =
+            look_at(random.in_cube(20.0), random.in_cube(1.0), random.unit_vector());
+        const DrawList list = frame(view);
+        ASSERT_EQ(list.stats.pairs_redetected, 0U) << "motion " << i;
+        ASSERT_EQ(list.draws[0].revision, revision);
+    }
+    // Until it moves by itself; then what comes is what a rebuild gives.
+    lights_[0].position_world += glm::dvec4(random.unit_vector(), 0.0);
+    const DrawList moved = frame();
+    EXPECT_EQ(moved.stats.pairs_redetected, 1U);
+    expect_as_from_nothing(moved);
+}
+
 TEST_F(ChangeDetection, AHalfTurnIsSeen) {
     test::Triangles wedge = test::tetrahedron({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 1});
     casters_[0].mesh = test::build(wedge);

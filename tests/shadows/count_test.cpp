@@ -113,10 +113,11 @@ struct Shadowed {
 
 constexpr double reach = 64.0;
 
-Shadowed shadow_of(std::shared_ptr<const ShadowMesh> mesh, LightLocal light) {
+Shadowed shadow_of(std::shared_ptr<const ShadowMesh> mesh, LightLocal light,
+                   NearCaps near_caps = NearCaps::Facing) {
     Shadowed s{std::move(mesh), light, {}, {}, {}};
     Facing facing;
-    classify_faces(*s.mesh, light, facing);
+    classify_faces(*s.mesh, light, facing, near_caps);
     s.weights = facing.weights;
     for (std::size_t f = 0; f < s.weights.size(); ++f) {
         if (s.weights[f] == 0) continue;
@@ -192,7 +193,8 @@ TEST(Count, IsTheNumberOfCastingFacesBeforeThePoint) {
     int deep = 0;
     for (int i = 0; i < 1'500; ++i) {
         const auto mesh = test::build(test::random_mesh(random));
-        const Shadowed s = shadow_of(mesh, light_about(random, *mesh));
+        const NearCaps near_caps = random.chance(0.5) ? NearCaps::Facing : NearCaps::Averted;
+        const Shadowed s = shadow_of(mesh, light_about(random, *mesh), near_caps);
         for (int j = 0; j < 12; ++j) {
             const glm::dvec3 x = sample_point(random, s);
             if (!within_reach(s, x)) continue;
@@ -212,6 +214,42 @@ TEST(Count, IsTheNumberOfCastingFacesBeforeThePoint) {
     EXPECT_GT(samples, 3'000);
     EXPECT_GT(in_shadow, samples / 10);
     EXPECT_GT(deep, samples / 100);
+}
+
+TEST(Count, OfEitherKindOfNearCapsDiffersByTheSolidsAboutThePoint) {
+    // So it is the same wherever nothing is inside a solid, and that is where surfaces are seen.
+    GNOMON_RANDOM(random);
+    int outside = 0;
+    int inside = 0;
+    for (int i = 0; i < 3'000; ++i) {
+        const auto mesh = test::build(test::random_mesh(random));
+        const LightLocal light = light_about(random, *mesh);
+        const Shadowed facing = shadow_of(mesh, light, NearCaps::Facing);
+        const Shadowed averted = shadow_of(mesh, light, NearCaps::Averted);
+        Facing kinds;
+        classify_faces(*mesh, light, kinds, NearCaps::Averted);
+        std::vector<SignedTriangle> solids;
+        for (std::size_t f = 0; f < mesh->faces().size(); ++f) {
+            if (kinds.solid_averted[mesh->face_components()[f]] == 0) continue;
+            const auto& [a, b, c] = mesh->faces()[f];
+            const auto p = mesh->positions();
+            solids.push_back({glm::dvec3(p[a]), glm::dvec3(p[b]), glm::dvec3(p[c]), 1});
+        }
+        if (solids.empty()) continue;
+        for (int j = 0; j < 12; ++j) {
+            const glm::dvec3 x = sample_point(random, facing);
+            if (!within_reach(facing, x) || !within_reach(averted, x)) continue;
+            const glm::dvec3 ray = random.unit_vector();
+            const auto f = crossings(facing.volume, x, ray);
+            const auto a = crossings(averted.volume, x, ray);
+            const auto s = crossings(solids, x, ray);
+            if (!f || !a || !s) continue;
+            ASSERT_EQ(winding(*f) - winding(*a), winding(*s)) << "mesh " << i << " sample " << j;
+            ++(winding(*s) == 0 ? outside : inside);
+        }
+    }
+    EXPECT_GT(outside, 1'000);
+    EXPECT_GT(inside, 100);
 }
 
 TEST(Count, OfKnownSolidsAndSheets) {

@@ -51,7 +51,7 @@ void expect_exact(const ShadowMesh& mesh, LightLocal light, Stages& stages) {
     Facing& facing = stages.facing;
     classify_faces(mesh, light, facing);
     Facing scalar;
-    classify_faces(mesh, light, scalar, FacingFilter::Scalar);
+    classify_faces(mesh, light, scalar, NearCaps::Facing, FacingFilter::Scalar);
     ASSERT_EQ(facing.weights, scalar.weights);
     ASSERT_EQ(std::bit_cast<std::uint64_t>(facing.margin),
               std::bit_cast<std::uint64_t>(scalar.margin));

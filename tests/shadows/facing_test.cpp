@@ -25,7 +25,8 @@ LightLocal point(float x, float y, float z) { return {{x, y, z, 1.0F}}; }
 LightLocal direction(float x, float y, float z) { return {{x, y, z, 0.0F}}; }
 
 // The rule, said again in other words and with the exact predicate alone.
-std::vector<std::int8_t> exact_weights(const ShadowMesh& mesh, LightLocal light) {
+std::vector<std::int8_t> exact_weights(const ShadowMesh& mesh, LightLocal light,
+                                       NearCaps near_caps = NearCaps::Facing) {
     std::vector<std::int8_t> weights;
     for (std::size_t f = 0; f < mesh.faces().size(); ++f) {
         const Component& c = mesh.components()[mesh.face_components()[f]];
@@ -41,15 +42,16 @@ std::vector<std::int8_t> exact_weights(const ShadowMesh& mesh, LightLocal light)
         const auto& [a, b, d] = mesh.faces()[f];
         const auto p = mesh.positions();
         const int side = exact_facing(p[a], p[b], p[d], light);
-        const bool casts = !solid || side == (c.inside_out ? -1 : 1);
+        const bool towards = near_caps == NearCaps::Facing && !c.inside_out;
+        const bool casts = !solid || side == (towards ? 1 : -1);
         weights.push_back(static_cast<std::int8_t>(casts ? side : 0));
     }
     return weights;
 }
 
-Facing classified(const ShadowMesh& mesh, LightLocal light) {
+Facing classified(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps = NearCaps::Facing) {
     Facing facing;
-    classify_faces(mesh, light, facing);
+    classify_faces(mesh, light, facing, near_caps);
     return facing;
 }
 
@@ -237,6 +239,74 @@ TEST(Facing, ChoosesTheKindForEachComponent) {
     EXPECT_EQ(part(12, 12, -1), 2);
     EXPECT_EQ(part(12, 12, 0), 10);
     EXPECT_EQ(part(24, 2, 1), 2);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Near caps on averted faces
+
+TEST(Facing, ASolidCastsWithItsAvertedFacesWhereAsked) {
+    const auto mesh = test::build(test::box());
+    for (const LightLocal light : {point(3.0F, 4.0F, 5.0F), direction(0.25F, 1.0F, 0.5F)}) {
+        const Facing averted = classified(*mesh, light, NearCaps::Averted);
+        EXPECT_EQ(count_of(averted, -1), 6);
+        EXPECT_EQ(count_of(averted, 1), 0);
+        EXPECT_EQ(averted.solid_averted, std::vector<std::uint8_t>{1});
+        const Facing facing = classified(*mesh, light, NearCaps::Facing);
+        EXPECT_EQ(averted.margin, facing.margin) << "the same faces change at the same places";
+        EXPECT_EQ(facing.solid_averted, std::vector<std::uint8_t>{0});
+    }
+}
+
+TEST(Facing, WhatIsNotASolidCastsAlikeForEitherKindOfNearCaps) {
+    Triangles open = test::box();
+    test::remove_face(open, 0);
+    const std::vector<std::pair<Triangles, LightLocal>> others{
+        {test::box(), point(0.5F, 0.25F, 0.125F)},  // the light inside
+        {open, point(3.0F, 4.0F, 5.0F)},
+        {test::book(5), direction(0.3F, 0.2F, 0.1F)},
+        {test::inside_out(test::box()), point(3.0F, 4.0F, 5.0F)},
+    };
+    for (const auto& [triangles, light] : others) {
+        const auto mesh = test::build(triangles);
+        const Facing averted = classified(*mesh, light, NearCaps::Averted);
+        EXPECT_EQ(averted.weights, classified(*mesh, light, NearCaps::Facing).weights);
+        EXPECT_EQ(averted.solid_averted, std::vector<std::uint8_t>{0});
+    }
+}
+
+TEST(Facing, AHollowInASolidIsHiddenByEitherKindOfNearCaps) {
+    // A shell. Its far inner wall looks at the light, and what hides it, with averted caps, is the
+    // near inner wall alone.
+    const auto mesh = test::build(
+        test::merged(test::sphere(6, 8, 2.0F), test::inside_out(test::sphere(6, 8, 1.0F))));
+    ASSERT_EQ(mesh->components().size(), 2U);
+    const Facing averted = classified(*mesh, direction(0.1F, 1.0F, 0.2F), NearCaps::Averted);
+    EXPECT_EQ(averted.solid_averted, (std::vector<std::uint8_t>{1, 0}));
+    double lowest_inner_cap = 9.0;
+    for (std::size_t f = 0; f < averted.weights.size(); ++f) {
+        if (averted.weights[f] == 0 || mesh->face_components()[f] == 0) continue;
+        EXPECT_EQ(averted.weights[f], -1);
+        for (const std::uint32_t v : mesh->faces()[f]) {
+            lowest_inner_cap =
+                std::min(lowest_inner_cap, static_cast<double>(mesh->positions()[v].y));
+        }
+    }
+    EXPECT_GT(lowest_inner_cap, -0.8) << "the near wall, on top, not the far one below";
+}
+
+TEST(Facing, AvertedWeightsAreExactForAnyMeshAnyLightAnywhere) {
+    GNOMON_RANDOM(random);
+    int solids = 0;
+    for (int i = 0; i < 2'000; ++i) {
+        const auto mesh = test::build(test::random_mesh(random));
+        const LightLocal light = test::random_light(random, *mesh);
+        const Facing averted = classified(*mesh, light, NearCaps::Averted);
+        ASSERT_EQ(averted.weights, exact_weights(*mesh, light, NearCaps::Averted)) << "mesh " << i;
+        ASSERT_EQ(averted.margin, classified(*mesh, light).margin) << "mesh " << i;
+        solids += static_cast<int>(
+            std::count(averted.solid_averted.begin(), averted.solid_averted.end(), 1));
+    }
+    EXPECT_GT(solids, 100);
 }
 
 TEST(Facing, AFaceInWhosePlaneTheLightLiesWeighsNothing) {

@@ -485,6 +485,25 @@ TEST_F(System, ChoosesTheTechniqueForEachPair) {
     EXPECT_EQ(list.stats.silhouette_edges, edges);
 }
 
+TEST_F(System, DepthPassDrawsNearCapsOfEitherKindWhereFacesAreNotInTheDepthBuffer) {
+    for (const NearCaps near_caps : {NearCaps::Facing, NearCaps::Averted}) {
+        for (const bool in_depth_buffer : {true, false}) {
+            const Light sun{.key = 1, .position_world = {0.01, 1, 2, 0}};
+            const DrawList list = one({.key = 1,
+                                       .mesh = box_,
+                                       .in_depth_buffer = in_depth_buffer,
+                                       .near_caps = near_caps},
+                                      sun);
+            ASSERT_EQ(list.draws.size(), 1U);
+            EXPECT_EQ(list.draws[0].technique, Technique::DepthPass);
+            EXPECT_EQ(list.draws[0].near_caps, !in_depth_buffer);
+            const bool averted = near_caps == NearCaps::Averted;
+            EXPECT_EQ(list.draws[0].volume->near_cap_averted.count > 0, averted);
+            EXPECT_EQ(list.draws[0].volume->near_cap.count > 0, !averted);
+        }
+    }
+}
+
 TEST_F(System, AForcedTechniqueIsForEveryPair) {
     for (const Technique forced : {Technique::DepthPass, Technique::DepthFail}) {
         ShadowSystem system = std::move(ShadowSystem::create({.force_technique = forced})).value();

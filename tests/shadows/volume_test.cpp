@@ -101,6 +101,60 @@ TEST(Volume, IsClosedForAnyMeshAnyLightAnyWeights) {
     }
 }
 
+TEST(Volume, IsClosedWithCapsOnAvertedFaces) {
+    GNOMON_RANDOM(random);
+    int with_averted = 0;
+    int with_others = 0;
+    int same_outlines = 0;
+    for (int i = 0; i < 4'000; ++i) {
+        const auto mesh = test::build(test::random_mesh(random));
+        const LightLocal light = test::random_light(random, *mesh);
+        const auto far = random.chance(0.5) ? FarVertices::AtInfinity : FarVertices::Finite;
+        Facing averted;
+        classify_faces(*mesh, light, averted, NearCaps::Averted);
+        std::vector<SilhouetteEdge> silhouette;
+        find_silhouette(*mesh, averted.weights, silhouette);
+        Volume volume;
+        build_volume(*mesh, averted.weights, silhouette, light.is_directional(), far, volume,
+                     averted.solid_averted);
+        ASSERT_TRUE(is_closed(volume, light.is_directional() && far == FarVertices::AtInfinity))
+            << "mesh " << i;
+
+        // The caps of solids come last, and the others are as they are without them.
+        std::vector<std::int8_t> of_solids(averted.weights.size(), 0);
+        std::vector<std::int8_t> of_others = averted.weights;
+        for (std::size_t f = 0; f < of_solids.size(); ++f) {
+            if (averted.solid_averted[mesh->face_components()[f]] == 0) continue;
+            std::swap(of_solids[f], of_others[f]);
+        }
+        ASSERT_EQ(slice(volume, volume.near_cap_averted), cap(*mesh, of_solids, -1));
+        ASSERT_EQ(slice(volume, volume.near_cap), cap(*mesh, of_others, 1));
+        ASSERT_EQ(volume.near_cap_averted.first + volume.near_cap_averted.count,
+                  volume.near_cap_flipped.first + volume.near_cap_flipped.count);
+        IndexRange rest = volume.near_cap_flipped;
+        rest.count -= volume.near_cap_averted.count;
+        ASSERT_EQ(slice(volume, rest), cap(*mesh, of_others, -1));
+        with_averted += volume.near_cap_averted.count > 0 ? 1 : 0;
+        with_others += volume.near_cap_averted.count > 0 && rest.count > 0 ? 1 : 0;
+
+        // Where no face is edge-on, both kinds end at the same edges, run the same way.
+        Facing facing;
+        classify_faces(*mesh, light, facing);
+        bool edge_on = false;
+        for (std::size_t f = 0; f < facing.weights.size(); ++f) {
+            edge_on = edge_on || (facing.weights[f] == 0 && averted.weights[f] == 0);
+        }
+        if (edge_on) continue;
+        std::vector<SilhouetteEdge> outline;
+        find_silhouette(*mesh, facing.weights, outline);
+        ASSERT_EQ(silhouette, outline) << "mesh " << i;
+        same_outlines += volume.near_cap_averted.count > 0 ? 1 : 0;
+    }
+    EXPECT_GT(with_averted, 300);
+    EXPECT_GT(with_others, 10);
+    EXPECT_GT(same_outlines, 100);
+}
+
 TEST(Volume, ReplacesWhatWasThereBefore) {
     const auto mesh = test::build(test::box());
     const std::vector<std::int8_t> weights(12, 0);

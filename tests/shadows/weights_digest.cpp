@@ -112,7 +112,7 @@ int main() {
         for (const glm::vec3& light : places) {
             for (const float w : {0.0F, 1.0F}) {
                 for (const FacingFilter filter : {FacingFilter::Simd, FacingFilter::Scalar}) {
-                    classify_faces(**mesh, {glm::vec4(light, w)}, facing, filter);
+                    classify_faces(**mesh, {glm::vec4(light, w)}, facing, NearCaps::Facing, filter);
                     for (const std::int8_t weight : facing.weights) {
                         weights.add(static_cast<std::uint8_t>(weight));
                     }

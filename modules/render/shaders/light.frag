@@ -8,7 +8,7 @@ layout(set = 1, binding = 0) uniform Light {
     vec4 light_view;      // xyz; w 1: a point, 0: direction towards the light
     vec4 color;           // rgb radiance scale, exposure included; w > 0: perspective
     vec4 spot_axis;       // xyz the way the spot looks, w cosine of the outer cone (-2: no spot)
-    vec4 spot_range;      // x cosine of the inner cone, y range in metres (0: none)
+    vec4 spot_range;      // x cosine of the inner cone, y range in metres (0: none), z 1: light that grazes fades
     vec4 depth_range;     // xy
 };
 
@@ -37,8 +37,9 @@ void main() {
     to_light = normalize(to_light);
     vec3 incoming = color.rgb * (light_view.w > 0.0 ? attenuation(to_light, distance2) : 1.0);
 
-    // Light that grazes the triangle itself fades out: beyond it lies the averted side, which no light reaches.
-    incoming *= smoothstep(0.0, 0.12, dot(s.geometric_normal, to_light));
+    // Light that grazes the triangle itself fades out where the mask has triangles averted from the light in shadow:
+    // their edges would show as saw-teeth.
+    if (spot_range.z > 0.0) incoming *= smoothstep(0.0, 0.12, dot(s.geometric_normal, to_light));
     float nl = max(dot(s.normal, to_light), 0.0);
     float nv = max(dot(s.normal, s.to_viewer), 1e-3);
     vec3 h = normalize(to_light + s.to_viewer);

@@ -37,6 +37,7 @@ struct PairState {
     std::shared_ptr<const Volume> volume;
     std::uint64_t volume_revision = 0;
     FarVertices far_vertices = FarVertices::AtInfinity;
+    NearCaps near_caps = NearCaps::Facing;
     bool flattened = false;
     LightLocal detected;  ///< the light that the facing was decided for
     double margin = 0.0;  ///< how far it may move from there
