@@ -28,6 +28,8 @@ std::string to_json(const RunRecord& run) {
                           {"zfail_pairs", s.zfail_pairs},
                           {"silhouette_edges", s.silhouette_edges},
                           {"faces_tested", s.faces_tested},
+                          {"stencil_batches", s.stencil_batches},
+                          {"split_lights", s.split_lights},
                           {"double_tests", s.facing.double_tests},
                           {"exact_tests", s.facing.exact_tests},
                           {"upload_bytes", frame.upload_bytes},

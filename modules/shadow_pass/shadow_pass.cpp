@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -10,6 +11,7 @@
 #include <gnomon_shaders/shadow_pass.hpp>
 
 #include "internal/index_arena.hpp"
+#include "internal/stencil_fold.hpp"
 
 namespace gnomon::shadow_pass {
 
@@ -45,9 +47,10 @@ gpu::Compare or_equal(gpu::Compare compare) {
 // Front and back are named from outside the volume. Depth-fail counts faces behind the surface
 // (equality included: comparison is strict, and caps lie on surfaces), depth-pass those in front.
 gpu::DepthStencilState counting(const ShadowPassDesc& desc, Technique technique, bool exchanged,
-                                Role role) {
+                                Role role, std::uint32_t count_mask) {
     gpu::DepthStencilState state{.format = desc.depth_stencil_format,
-                                 .depth_compare = desc.depth_compare};
+                                 .depth_compare = desc.depth_compare,
+                                 .stencil_write_mask = count_mask};
     if (role == Role::OpenCap) state.depth_compare = or_equal(desc.depth_compare);
     if (role != Role::Volume) {
         const int nearer = is_reversed(desc.depth_compare) ? 1 : -1;
@@ -134,7 +137,15 @@ struct ShadowPass::State {
     ShadowPassDesc desc;
     gpu::BindGroupLayout layout;
     gpu::Shader vertex;
-    std::array<gpu::RenderPipeline, 8 * role_count> pipelines;
+    gpu::Shader fragment;
+    using Pipelines = std::array<gpu::RenderPipeline, 8 * role_count>;
+    Pipelines pipelines;
+    // What lights that are split into batches need more, made when the first one comes.
+    struct Batching {
+        internal::StencilFold fold;
+        Pipelines pipelines;
+    };
+    std::optional<Batching> batching;
     std::uint32_t uniform_stride = 256;
     gpu::Buffer uniforms;
     std::uint64_t uniforms_size = 0;
@@ -162,6 +173,7 @@ struct ShadowPass::State {
         bool unclipped = false;
         Technique technique = Technique::DepthFail;
         std::vector<Run> runs;
+        std::uint32_t batch = 0;
         std::shared_ptr<const shadows::Volume> volume;
     };
     std::vector<Recorded> recorded;
@@ -171,7 +183,9 @@ struct ShadowPass::State {
     State(gpu::Device& d, const ShadowPassDesc& description)
         : device(&d), desc(description), indices(d) {}
 
-    Status create_pipelines();
+    Status create_shaders();
+    Result<Pipelines> create_pipelines(std::uint32_t count_mask);
+    Status create_batching();
     [[nodiscard]] gpu::VertexBufferLayout vertex_layout() const;
     Status write_uniforms(const shadows::DrawList& list, const shadows::View& view);
     Result<gpu::BufferId> vertices_of(const shadows::ShadowMesh& mesh);
@@ -187,7 +201,7 @@ gpu::VertexBufferLayout ShadowPass::State::vertex_layout() const {
                 {.format = on_cpu ? gpu::VertexFormat::Float32x4 : gpu::VertexFormat::Float32x3}}};
 }
 
-Status ShadowPass::State::create_pipelines() {
+Status ShadowPass::State::create_shaders() {
     auto made_layout = device->create_bind_group_layout(
         {.label = "shadow volume",
          .entries = {{.binding = 0,
@@ -204,15 +218,21 @@ Status ShadowPass::State::create_pipelines() {
          .source = on_cpu ? shaders::volume_extruded_vert : shaders::volume_vert});
     if (!made_vertex) return forward_error(made_vertex);
     vertex = std::move(*made_vertex);
-    auto fragment = device->create_shader({.label = "shadow volume fragments",
-                                           .stage = gpu::ShaderStage::Fragment,
-                                           .source = shaders::volume_frag});
-    if (!fragment) return forward_error(fragment);
+    auto made_fragment = device->create_shader({.label = "shadow volume fragments",
+                                                .stage = gpu::ShaderStage::Fragment,
+                                                .source = shaders::volume_frag});
+    if (!made_fragment) return forward_error(made_fragment);
+    fragment = std::move(*made_fragment);
+    return {};
+}
 
+// Every stencil operation wraps within `count_mask` and leaves the other bits alone.
+Result<ShadowPass::State::Pipelines> ShadowPass::State::create_pipelines(std::uint32_t count_mask) {
+    Pipelines result;
     gpu::RenderPipelineDesc pipeline;
     pipeline.bind_group_layouts = {layout};
     pipeline.vertex = vertex;
-    pipeline.fragment = *fragment;
+    pipeline.fragment = fragment;
     pipeline.vertex_buffers = {vertex_layout()};
     for (const gpu::Format format : desc.color_formats) {
         pipeline.targets.push_back({.format = format, .write_mask = gpu::ColorWrite::None});
@@ -233,15 +253,24 @@ Status ShadowPass::State::create_pipelines() {
                         (role == Role::Cap ? ", biased caps" : "") +
                         (role == Role::OpenCap ? ", open caps" : "");
                     pipeline.primitive.unclipped_depth = unclipped;
-                    pipeline.depth_stencil = counting(desc, technique, exchanged, role);
+                    pipeline.depth_stencil = counting(desc, technique, exchanged, role, count_mask);
                     auto made = device->create_render_pipeline(pipeline);
                     if (!made) return forward_error(made);
-                    pipelines[pipeline_index(technique, exchanged, unclipped, role)] =
+                    result[pipeline_index(technique, exchanged, unclipped, role)] =
                         std::move(*made);
                 }
             }
         }
     }
+    return result;
+}
+
+Status ShadowPass::State::create_batching() {
+    auto fold = internal::StencilFold::create(*device, desc);
+    if (!fold) return forward_error(fold);
+    auto made = create_pipelines(internal::StencilFold::count_mask);
+    if (!made) return forward_error(made);
+    batching.emplace(Batching{std::move(*fold), std::move(*made)});
     return {};
 }
 
@@ -373,7 +402,10 @@ Result<ShadowPass> ShadowPass::create(gpu::Device& device, const ShadowPassDesc&
     const std::uint32_t alignment = device.caps().limits.min_uniform_buffer_offset_alignment;
     const auto size = static_cast<std::uint32_t>(sizeof(VolumeUniforms));
     state->uniform_stride = (size + alignment - 1) / alignment * alignment;
-    if (const Status created = state->create_pipelines(); !created) return forward_error(created);
+    if (const Status created = state->create_shaders(); !created) return forward_error(created);
+    auto pipelines = state->create_pipelines(0xFF);
+    if (!pipelines) return forward_error(pipelines);
+    state->pipelines = std::move(*pipelines);
     return ShadowPass(std::move(state));
 }
 
@@ -395,6 +427,13 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         }
     }
     s.free_unused();
+    for (const shadows::LightDraws& light : list.lights) {
+        if (light.batches <= 1) continue;
+        if (!s.batching) {
+            if (const Status created = s.create_batching(); !created) return created;
+        }
+        s.stats.draw_calls += light.batches + 1;
+    }
     const bool finite = view.projection != shadows::ProjectionKind::InfinitePerspective;
     const bool unclipped = finite && s.device->caps().features.unclipped_depth;
     for (std::size_t i = 0; i < list.draws.size(); ++i) {
@@ -414,7 +453,7 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         auto run = s.indices_of(draw);
         if (!run) return forward_error(run);
         s.recorded.push_back({*vertices, *run, draw.mirrored, unclipped, draw.technique,
-                              runs_of(draw, s.desc), draw.volume});
+                              runs_of(draw, s.desc), draw.batch, draw.volume});
         s.stats.draw_calls += s.recorded.back().runs.size();
     }
     if (const Status written = s.write_uniforms(list, view); !written) return written;
@@ -426,20 +465,30 @@ void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) cons
     const State& s = *state_;
     const shadows::LightDraws& of_light = s.lights[light];
     encoder.push_debug_group("shadow volumes");
+    const bool batched = of_light.batches > 1;
+    const State::Pipelines& pipelines = batched ? s.batching->pipelines : s.pipelines;
     const gpu::RenderPipeline* current = nullptr;
     for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
         const State::Recorded& volume = s.recorded[i];
+        if (batched && i > of_light.first && volume.batch != s.recorded[i - 1].batch) {
+            s.batching->fold.fold(encoder);
+            current = nullptr;
+        }
         const std::uint32_t offset = i * s.uniform_stride;
         encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
         encoder.set_vertex_buffer(0, volume.vertices);
         encoder.set_index_buffer(s.indices.buffer(volume.run.chunk), gpu::IndexFormat::Uint32);
         for (const Run& run : volume.runs) {
-            const auto& pipeline = s.pipelines[pipeline_index(
+            const auto& pipeline = pipelines[pipeline_index(
                 volume.technique, volume.exchanged != run.flipped, volume.unclipped, run.role)];
             if (&pipeline != current) encoder.set_pipeline(pipeline);
             current = &pipeline;
             encoder.draw_indexed(run.count, 1, volume.run.first + run.first);
         }
+    }
+    if (batched) {
+        s.batching->fold.fold(encoder);
+        s.batching->fold.finish(encoder);
     }
     encoder.pop_debug_group();
 }

@@ -2,7 +2,7 @@
 //
 // ShadowPass: turns a DrawList into GPU commands. It uploads the indices that changed and records,
 // per light, the stencil counting of its volumes into a render pass of the caller's. Where the
-// count is zero afterwards, the light arrives. It owns no target, draws no scene and knows no
+// stencil is zero afterwards, the light arrives. It owns no target, draws no scene and knows no
 // light's colour.
 //
 //     pass.prepare(list, view);                          // once a frame
@@ -109,8 +109,11 @@ public:
     [[nodiscard]] Status prepare(const shadows::DrawList& list, const shadows::View& view);
 
     /// Records the volumes of list.lights[light]. The pass's stencil must have been cleared to 0;
-    /// its depth buffer is read, not written. Leaves pipeline, bind group 0, vertex slot 0, index
-    /// buffer and stencil reference changed.
+    /// its depth buffer is read, not written. Afterwards the stencil is 0 where the light arrives;
+    /// elsewhere it is the count, or 255 where the light's volumes come in several batches
+    /// (LightDraws::batches). Those are folded in place, by draws that cover the viewport: one a
+    /// batch and one more. Leaves pipeline, bind group 0, vertex slot 0, index buffer and stencil
+    /// reference changed.
     void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
 
     // For debug views: draws one part of a light's volumes with a pipeline of the caller's, whose

@@ -17,11 +17,6 @@ double milliseconds(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-std::uint64_t next_volume_revision() {
-    static std::atomic<std::uint64_t> next{1};
-    return next.fetch_add(1);
-}
-
 // How far the light went, in the measure of Facing::margin: metres for a point, on the unit sphere
 // for a direction.
 double displacement(const LightLocal& from, const LightLocal& to) {
@@ -109,6 +104,11 @@ double squared_distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dve
 
 }  // namespace
 
+std::uint64_t next_volume_revision() {
+    static std::atomic<std::uint64_t> next{1};
+    return next.fetch_add(1);
+}
+
 Reason update_pair(PairState& pair, const CasterState& caster, const LightState& light,
                    FarVertices far_vertices, const SilhouetteStrategy& strategy, Scratch& scratch,
                    FrameStats& stats) {
@@ -160,6 +160,7 @@ Reason update_pair(PairState& pair, const CasterState& caster, const LightState&
     } else {
         ++stats.pairs_reused;
     }
+    if (reason != Reason::Unchanged) pair.layers = {};
     pair.pose_revision = caster.pose_revision;
     pair.light_revision = light.revision;
     return reason;

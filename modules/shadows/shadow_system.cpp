@@ -2,13 +2,16 @@
 #include <gnomon/shadows/shadow_system.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <string>
 #include <unordered_map>
 
+#include "internal/batches.hpp"
 #include "internal/pair.hpp"
 
 namespace gnomon::shadows {
@@ -108,6 +111,8 @@ struct ShadowSystem::State {
     std::unordered_map<std::uint64_t, std::unordered_map<std::uint64_t, PairState>>
         pairs;  // light, then caster
     internal::Scratch scratch;
+    std::vector<internal::DrawnPair> drawn;  // of the light at hand
+    std::vector<VolumeDraw> draws;
 
     void drop_caster(std::uint64_t key) {
         casters.erase(key);
@@ -119,7 +124,8 @@ struct ShadowSystem::State {
     }
     void drop_unsubmitted();
     void draw_pair(const CasterState& caster, const LightState& light, const View& view,
-                   DrawList& list);
+                   FrameStats& stats);
+    void draw_light(LightState& light, const View& view, DrawList& list);
 };
 
 void ShadowSystem::State::drop_unsubmitted() {
@@ -144,8 +150,7 @@ void ShadowSystem::State::drop_unsubmitted() {
 }
 
 void ShadowSystem::State::draw_pair(const CasterState& caster, const LightState& light,
-                                    const View& view, DrawList& list) {
-    FrameStats& stats = list.stats;
+                                    const View& view, FrameStats& stats) {
     ++stats.pairs;
     auto& of_light = pairs[light.light.key];
     if (!caster.pose.finite || !finite(light.light.position_world) ||
@@ -203,7 +208,26 @@ void ShadowSystem::State::draw_pair(const CasterState& caster, const LightState&
             : Technique::DepthFail);
     ++(draw.technique == Technique::DepthPass ? stats.zpass_pairs : stats.zfail_pairs);
     stats.silhouette_edges += draw.volume->silhouette_edges;
-    list.draws.push_back(std::move(draw));
+    drawn.push_back({&pair, bounds_of(caster)});
+    draws.push_back(std::move(draw));
+}
+
+void ShadowSystem::State::draw_light(LightState& light, const View& view, DrawList& list) {
+    drawn.clear();
+    draws.clear();
+    for (const auto& [key, caster] : casters) draw_pair(caster, light, view, list.stats);
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint32_t batches =
+        internal::split_into_batches(light, options.max_layers, drawn, draws);
+    list.stats.build_ms +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    list.stats.stencil_batches += batches;
+    list.stats.split_lights += batches > 1 ? 1 : 0;
+    list.lights.push_back({light.light.key, static_cast<std::uint32_t>(list.draws.size()),
+                           static_cast<std::uint32_t>(draws.size()),
+                           std::max<std::uint32_t>(batches, 1)});
+    list.draws.insert(list.draws.end(), std::make_move_iterator(draws.begin()),
+                      std::make_move_iterator(draws.end()));
 }
 
 Result<ShadowSystem> ShadowSystem::create(const SystemOptions& options) {
@@ -217,6 +241,11 @@ Result<ShadowSystem> ShadowSystem::create(const SystemOptions& options) {
         return fail(ErrorCode::InvalidInput, "There is no silhouette strategy named \"" +
                                                  std::string(options.silhouette) +
                                                  "\"; there are " + names + ".");
+    }
+    if (options.max_layers < 1 || options.max_layers > 255) {
+        return fail(ErrorCode::InvalidInput,
+                    "SystemOptions::max_layers is " + std::to_string(options.max_layers) +
+                        "; it must lie within 1 and 255, what a stencil of eight bits counts.");
     }
     auto state = std::make_unique<State>();
     state->options = options;
@@ -268,13 +297,7 @@ DrawList ShadowSystem::Frame::finish(const View& view) && {
     list.stats.casters = state.casters.size();
     list.stats.lights = state.lights.size();
     list.stats.silhouette = state.strategy->name;
-    for (const auto& [light_key, light] : state.lights) {
-        const auto first = static_cast<std::uint32_t>(list.draws.size());
-        for (const auto& [caster_key, caster] : state.casters)
-            state.draw_pair(caster, light, view, list);
-        list.lights.push_back(
-            {light_key, first, static_cast<std::uint32_t>(list.draws.size()) - first});
-    }
+    for (auto& [key, light] : state.lights) state.draw_light(light, view, list);
     return list;
 }
 

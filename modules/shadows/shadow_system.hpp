@@ -78,6 +78,8 @@ struct VolumeDraw {
     bool near_caps = true;  ///< depth-pass: whether caps must be drawn as well
     bool mirrored = false;  ///< the pose turns triangles over: front and back exchange
     Reason reason = Reason::New;
+    /// Volumes of one light with the same number may be counted together in eight bits.
+    std::uint32_t batch = 0;
 };
 
 /// The volumes of one light: draws[first .. first + count).
@@ -85,6 +87,10 @@ struct LightDraws {
     std::uint64_t light = 0;
     std::uint32_t first = 0;
     std::uint32_t count = 0;
+    /// 1 where no point can lie under more layers than SystemOptions::max_layers. Else draws come
+    /// in batches of at most 127 layers each, volumes that exceed that alone in parts, ascending;
+    /// a point is in shadow where any batch counts.
+    std::uint32_t batches = 1;
 };
 
 struct FrameStats {
@@ -99,13 +105,17 @@ struct FrameStats {
     std::uint64_t zfail_pairs = 0;
     std::uint64_t silhouette_edges = 0;  ///< of all pairs drawn
     std::uint64_t faces_tested = 0;
+    std::uint64_t stencil_batches = 0;  ///< of all lights; as many as lights with volumes where
+                                        ///< none was split
+    std::uint64_t split_lights = 0;     ///< lights with more than one batch
     FacingStats facing;
     double detect_ms = 0.0;                             ///< facing and silhouettes
-    double build_ms = 0.0;                              ///< index ranges
+    double build_ms = 0.0;                              ///< index ranges, parts included
     std::array<std::uint64_t, reason_count> reasons{};  ///< pairs, by Reason
 };
 
-/// What to draw this frame: sorted by light key, then caster key. Same input, same list.
+/// What to draw this frame: sorted by light key, then caster key; a caster whose volume was split
+/// has a draw for each part. Same input, same list.
 struct DrawList {
     std::vector<LightDraws> lights;  ///< every light of the frame, also one without volumes
     std::vector<VolumeDraw> draws;
@@ -121,11 +131,15 @@ struct SystemOptions {
     std::optional<Technique> force_technique =
         std::nullopt;                      ///< for every pair, valid or not; for tests and reports
     std::string_view silhouette = "auto";  ///< a name from silhouette_strategies(), or "auto"
+    /// A light whose volumes could lay more layers than this over a point is split into batches.
+    /// 1 .. 255: what eight bits count. Less is for tests.
+    std::uint32_t max_layers = 255;
 };
 
 class ShadowSystem {
 public:
-    /// Fails with ErrorCode::InvalidInput for an unknown strategy name.
+    /// Fails with ErrorCode::InvalidInput for an unknown strategy name or max_layers beyond 1 ..
+    /// 255.
     [[nodiscard]] static Result<ShadowSystem> create(const SystemOptions& options = {});
     ShadowSystem(ShadowSystem&&) noexcept;
     ShadowSystem& operator=(ShadowSystem&&) noexcept;

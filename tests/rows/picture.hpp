@@ -30,6 +30,7 @@ struct PictureOptions {
     std::optional<shadows::Technique> technique = std::nullopt;
     shadows::NearCaps near_caps = shadows::NearCaps::Facing;
     shadow_pass::AvertedFaces averted_faces = shadow_pass::AvertedFaces::Shadowed;
+    std::uint32_t max_layers = 255;
     bool cull_back_faces = false;
     gpu::Compare volume_depth_compare = gpu::Compare::Greater;
     std::function<void(shadows::DrawList&)> mutate =

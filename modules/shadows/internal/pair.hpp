@@ -25,10 +25,30 @@ struct CasterState {
     std::uint64_t frame = 0;          ///< last submitted in
 };
 
+/// How a light's volumes were distributed last.
+struct LayerMemory {
+    std::vector<std::uint64_t> revisions;  ///< of the light, each volume and each pose
+    std::vector<std::uint32_t> batches;    ///< of each draw, parts included; empty: not split
+};
+
 struct LightState {
     Light light;
+    LayerMemory layers;
     std::uint64_t revision = 0;
     std::uint64_t frame = 0;
+};
+
+/// How many layers the volume can lay over a point, and what it was split into.
+struct Layers {
+    enum class Known : std::uint8_t { Nothing, QuickBound, Bound };
+    struct Part {
+        std::shared_ptr<const Volume> volume;
+        std::uint64_t revision = 0;
+        std::uint32_t layers = 0;
+    };
+    Known known = Known::Nothing;
+    std::uint32_t most = 0;
+    std::vector<Part> parts = {};
 };
 
 struct PairState {
@@ -42,7 +62,8 @@ struct PairState {
     LightLocal detected;  ///< the light that the facing was decided for
     double margin = 0.0;  ///< how far it may move from there
     double nearest_face =
-        -1;  ///< metres from the light to the nearest casting face, once asked for
+        -1;         ///< metres from the light to the nearest casting face, once asked for
+    Layers layers;  ///< for the light where it is now
     // What the pair looked like last.
     LightLocal current;
     glm::dvec4 current_exact{0.0};  ///< before rounding
@@ -56,6 +77,9 @@ struct Scratch {
     Facing facing;
     std::vector<SilhouetteEdge> silhouette;
 };
+
+/// Unique in the process, never 0.
+[[nodiscard]] std::uint64_t next_volume_revision();
 
 /// Brings the pair up to date and says why. Adds to the stats.
 Reason update_pair(PairState& pair, const CasterState& caster, const LightState& light,

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/shadows/layer_bound.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "internal/layers.hpp"
+#include "internal/winding_grid.hpp"
+
+namespace gnomon::shadows {
+
+namespace {
+
+using internal::GridPoint;
+using internal::Triangle;
+using internal::WindingGrid;
+
+constexpr double half_ulp = 0x1p-53;
+
+// Positions as seen from the light: relative to it for a point light.
+struct Placement {
+    const ShadowMesh& mesh;
+    const LayerSpace& space;
+    bool is_local;
+
+    Placement(const ShadowMesh& m, const LayerSpace& s)
+        : mesh(m), space(s), is_local(s.space_from_local == glm::dmat4(1.0)) {}
+
+    [[nodiscard]] bool directional() const { return space.light.w == 0.0; }
+    [[nodiscard]] glm::dvec3 place(const glm::dvec3& p) const {
+        const glm::dvec3 there =
+            is_local ? p : glm::dvec3(space.space_from_local * glm::dvec4(p, 1.0));
+        return directional() ? there : there - glm::dvec3(space.light);
+    }
+    [[nodiscard]] glm::dvec3 operator()(std::uint32_t vertex) const {
+        return place(glm::dvec3(mesh.positions()[vertex]));
+    }
+    [[nodiscard]] std::array<glm::dvec3, 8> corners() const {
+        std::array<glm::dvec3, 8> result;
+        for (unsigned i = 0; i < 8; ++i) {
+            const glm::vec3& low = mesh.bounds_min();
+            const glm::vec3& high = mesh.bounds_max();
+            result[i] =
+                place(glm::dvec3((i & 1U) != 0 ? high.x : low.x, (i & 2U) != 0 ? high.y : low.y,
+                                 (i & 4U) != 0 ? high.z : low.z));
+        }
+        return result;
+    }
+    // Of each coordinate of a placed position; its own rounding, relative to itself, excepted.
+    [[nodiscard]] double error() const {
+        if (is_local) return 0.0;
+        const glm::dvec3 farthest = glm::max(glm::abs(glm::dvec3(mesh.bounds_min())),
+                                             glm::abs(glm::dvec3(mesh.bounds_max())));
+        double sum = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            sum += glm::length(glm::dvec3(space.space_from_local[i])) * farthest[i];
+        }
+        return 8.0 * half_ulp *
+               (sum + glm::length(glm::dvec3(space.space_from_local[3])) +
+                glm::length(glm::dvec3(space.light)));
+    }
+};
+
+std::int64_t cells_for(std::size_t edges) {
+    return static_cast<std::int64_t>(std::clamp<std::size_t>(std::bit_ceil(edges / 8 + 1), 8, 256));
+}
+
+// right x up = backward: what is counter-clockwise to the light is so in the picture.
+struct Axes {
+    glm::dvec3 right, up, forward;
+};
+
+Axes axes_along(const glm::dvec3& forward) {
+    const glm::dvec3 f = glm::normalize(forward);
+    const glm::dvec3 a = glm::abs(f);
+    const glm::dvec3 least = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
+                             : a.y <= a.z             ? glm::dvec3(0, 1, 0)
+                                                      : glm::dvec3(0, 0, 1);
+    const glm::dvec3 right = glm::normalize(glm::cross(f, least));
+    return {right, glm::cross(right, f), f};
+}
+
+std::int64_t even(double x) { return 2 * std::llround(0.5 * x); }
+
+// ---------------------------------------------------------------------------------------------
+// One picture holds the whole mesh, and outside it nothing is covered.
+
+std::optional<std::int64_t> bound_in_one_picture(const Placement& placement,
+                                                 std::span<const SilhouetteEdge> boundary,
+                                                 const Axes& axes) {
+    std::vector<glm::dvec2> points;
+    points.reserve(2 * boundary.size());
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high(-low);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const SilhouetteEdge& edge : boundary) {
+        for (const std::uint32_t v : {edge.from, edge.to}) {
+            const glm::dvec3 d = placement(v);
+            glm::dvec2 p(glm::dot(d, axes.right), glm::dot(d, axes.up));
+            if (!placement.directional()) {
+                const double depth = glm::dot(d, axes.forward);
+                nearest = std::min(nearest, depth);
+                p /= depth;
+            }
+            points.push_back(p);
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    }
+    const double extent = std::max(high.x - low.x, high.y - low.y);
+    const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x),
+                                     std::abs(high.y), placement.directional() ? 0.0 : 1.0});
+    const double error =
+        16.0 * half_ulp * largest +
+        2.0 * placement.error() * (placement.directional() ? 1.0 : (1.0 + largest) / nearest);
+    // In units of the grid, half of its slack; also refuses what is not a number.
+    if (!(error * static_cast<double>(WindingGrid::width) <=
+          0.5 * static_cast<double>(WindingGrid::slack) * extent)) {
+        return std::nullopt;
+    }
+    WindingGrid grid(cells_for(boundary.size()));
+    const double border = 64.0;
+    const double scale = (static_cast<double>(WindingGrid::width) - 2.0 * border) / extent;
+    const auto to_grid = [&](const glm::dvec2& p) {
+        return GridPoint(even((p.x - low.x) * scale + border),
+                         even((p.y - low.y) * scale + border));
+    };
+    for (std::size_t i = 0; i < boundary.size(); ++i) {
+        grid.add_edge(to_grid(points[2 * i]), to_grid(points[2 * i + 1]), boundary[i].count);
+    }
+    return grid.most(0);
+}
+
+// ---------------------------------------------------------------------------------------------
+// A light among the faces: six pictures, the sides of a cube about it. Each begins at a corner of
+// the cube, where the layers are counted face by face; all six share two corners.
+
+// Casting faces that a ray meets, or passes within `tolerance` radians.
+std::int64_t layers_along(const Placement& placement, std::span<const Triangle> casting,
+                          const glm::dvec3& ray, double tolerance) {
+    const glm::dvec3 r = glm::normalize(ray);
+    std::int64_t layers = 0;
+    for (const Triangle& face : casting) {
+        const std::array<glm::dvec3, 3> d{placement(face[0]), placement(face[1]),
+                                          placement(face[2])};
+        bool left = true;
+        bool right = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3& a = d[i];
+            const glm::dvec3& b = d[(i + 1) % 3];
+            const glm::dvec3 n = glm::cross(a, b);
+            const double height = glm::dot(r, n);
+            const double room =
+                tolerance * glm::length(n) + 1e-12 * glm::length(a) * glm::length(b);
+            left = left && height >= -room;
+            right = right && height <= room;
+        }
+        // Either the face or its mirror image behind the light.
+        const double side = glm::dot(d[0], glm::cross(d[1], d[2]));
+        const double doubt = 1e-12 * glm::length(d[0]) * glm::length(d[1]) * glm::length(d[2]);
+        layers += (left && side >= -doubt) || (right && side <= doubt) ? 1 : 0;
+    }
+    return layers;
+}
+
+// The piece of a -> b with |right| and |up| at most `limit` times forward.
+bool clip(glm::dvec3& a, glm::dvec3& b, double limit) {
+    double from = 0.0;
+    double to = 1.0;
+    for (int axis = 0; axis < 2; ++axis) {
+        for (const double sign : {-1.0, 1.0}) {
+            const double at_a = limit * a.z + sign * a[axis];
+            const double at_b = limit * b.z + sign * b[axis];
+            if (at_a < 0.0 && at_b < 0.0) return false;
+            if (at_a < 0.0) from = std::max(from, at_a / (at_a - at_b));
+            if (at_b < 0.0) to = std::min(to, at_a / (at_a - at_b));
+        }
+    }
+    if (from >= to) return false;
+    const glm::dvec3 d = b - a;
+    if (to < 1.0) b = a + to * d;
+    if (from > 0.0) a += from * d;
+    return a.z > 0.0 && b.z > 0.0;
+}
+
+std::optional<std::int64_t> bound_all_round(const Placement& placement,
+                                            std::span<const Triangle> casting,
+                                            std::span<const SilhouetteEdge> boundary) {
+    // The pictures overlap a little, and edges reach a little beyond them.
+    constexpr double side = 1.0 + 1e-6;
+    constexpr double reach = 1.0 + 1e-3;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::vector<glm::dvec3> points;
+    points.reserve(2 * boundary.size());
+    for (const SilhouetteEdge& edge : boundary) {
+        for (const std::uint32_t v : {edge.from, edge.to}) {
+            points.push_back(placement(v));
+            nearest = std::min(nearest, glm::length(points.back()));
+        }
+    }
+    if (!(placement.error() * 0x1p27 <= nearest)) return std::nullopt;
+
+    std::int64_t result = 0;
+    WindingGrid grid(cells_for(boundary.size() / 2));
+    const std::array<std::int64_t, 2> at_corner{
+        layers_along(placement, casting, glm::dvec3(-1.0), 1e-5),
+        layers_along(placement, casting, glm::dvec3(1.0), 1e-5)};
+    for (int face = 0; face < 6; ++face) {
+        const int axis = face % 3;
+        const double sign = face < 3 ? -1.0 : 1.0;  // of the side, and of the corner it begins at
+        const auto seen = [&](const glm::dvec3& d) {
+            const double u = -sign * d[(axis + 1) % 3];
+            const double v = -sign * d[(axis + 2) % 3];
+            return sign < 0.0 ? glm::dvec3(u, v, -d[axis]) : glm::dvec3(v, u, d[axis]);
+        };
+        const auto to_grid = [&](const glm::dvec3& p) {
+            constexpr double scale = static_cast<double>(WindingGrid::width) / (2.0 * side);
+            return GridPoint(even((p.x / p.z + side) * scale), even((p.y / p.z + side) * scale));
+        };
+        for (std::size_t i = 0; i < boundary.size(); ++i) {
+            glm::dvec3 a = seen(points[2 * i]);
+            glm::dvec3 b = seen(points[2 * i + 1]);
+            if (clip(a, b, reach)) grid.add_edge(to_grid(a), to_grid(b), boundary[i].count);
+        }
+        result = std::max(result, grid.most(at_corner[face < 3 ? 0 : 1]));
+    }
+    return result;
+}
+
+}  // namespace
+
+namespace internal {
+
+std::uint32_t quick_bound(std::uint64_t faces, std::uint64_t sides, bool from_outside) {
+    if (from_outside) faces = std::min(faces, sides == 0 ? 0 : (sides - 1) / 2);
+    return static_cast<std::uint32_t>(faces);
+}
+
+std::uint32_t bound_layers(const ShadowMesh& mesh, std::span<const Triangle> casting,
+                           std::span<const SilhouetteEdge> boundary, const LayerSpace& space) {
+    const Placement placement(mesh, space);
+    std::uint64_t sides = 0;
+    for (const SilhouetteEdge& edge : boundary) sides += static_cast<std::uint64_t>(edge.count);
+    const std::uint32_t quick = quick_bound(casting.size(), sides, seen_from_outside(mesh, space));
+    if (quick <= 1) return quick;
+
+    std::optional<std::int64_t> found;
+    if (placement.directional()) {
+        found = bound_in_one_picture(placement, boundary, axes_along(-glm::dvec3(space.light)));
+    } else {
+        glm::dvec3 center(0.0);
+        const auto corners = placement.corners();
+        for (const glm::dvec3& corner : corners) center += corner * 0.125;
+        const Axes axes = axes_along(center);
+        // Wider than some 160 degrees, a picture has no resolution left.
+        const bool narrow = std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& d) {
+            return glm::dot(d, axes.forward) > 0.15 * glm::length(d);
+        });
+        found = narrow ? bound_in_one_picture(placement, boundary, axes)
+                       : bound_all_round(placement, casting, boundary);
+    }
+    if (!found) return quick;
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(*found, quick));
+}
+
+}  // namespace internal
+
+bool seen_from_outside(const ShadowMesh& mesh, const LayerSpace& space) {
+    const Placement placement(mesh, space);
+    if (placement.directional()) return true;
+    const auto corners = placement.corners();
+    const double error = placement.error();
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto beyond = [&](double sign) {
+            return std::all_of(corners.begin(), corners.end(),
+                               [&](const glm::dvec3& d) { return sign * d[axis] > error; });
+        };
+        if (beyond(1.0) || beyond(-1.0)) return true;
+    }
+    return false;
+}
+
+std::uint32_t quick_layer_bound(const Volume& volume, bool from_outside) {
+    // A side is two triangles, or one where all far vertices are one point.
+    const bool one_far_point =
+        volume.far_cap.count == 0 && volume.near_cap.count + volume.near_cap_flipped.count > 0;
+    return internal::quick_bound((volume.near_cap.count + volume.near_cap_flipped.count) / 3,
+                                 volume.sides.count / (one_far_point ? 3 : 6), from_outside);
+}
+
+std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume, const LayerSpace& space) {
+    std::vector<Triangle> casting;
+    casting.reserve((volume.near_cap.count + volume.near_cap_flipped.count) / 3);
+    for (const IndexRange& range : {volume.near_cap, volume.near_cap_flipped}) {
+        for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
+            casting.push_back(
+                {volume.indices[i] / 2, volume.indices[i + 1] / 2, volume.indices[i + 2] / 2});
+        }
+    }
+    // Each side starts with the two near vertices of its edge, the later one first.
+    std::vector<SilhouetteEdge> boundary;
+    const IndexRange& sides = volume.sides;
+    for (std::uint32_t i = sides.first; i < sides.first + sides.count; i += 3) {
+        const std::uint32_t to = volume.indices[i];
+        const std::uint32_t from = volume.indices[i + 1];
+        if (to % 2 != 0 || from % 2 != 0) continue;
+        const SilhouetteEdge edge{from / 2, to / 2, 1};
+        if (!boundary.empty() && boundary.back().from == edge.from &&
+            boundary.back().to == edge.to) {
+            ++boundary.back().count;
+        } else {
+            boundary.push_back(edge);
+        }
+    }
+    return internal::bound_layers(mesh, casting, boundary, space);
+}
+
+}  // namespace gnomon::shadows

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <gnomon/core/expects.hpp>
+#include <gnomon/shadows/layer_bound.hpp>
+
+#include "internal/layers.hpp"
+
+namespace gnomon::shadows {
+
+namespace {
+
+using internal::Triangle;
+
+// The weights that a volume was built from. Its caps list the faces in the mesh's order, so one
+// walk along both finds them; where neighbouring faces are equal any of them may have the weight.
+std::vector<std::int8_t> weights_of(const ShadowMesh& mesh, const Volume& volume) {
+    const auto faces = mesh.faces();
+    std::vector<std::int8_t> weights(faces.size(), 0);
+    for (const auto& [range, step] :
+         {std::pair(volume.near_cap, 1), std::pair(volume.near_cap_flipped, -1)}) {
+        std::size_t f = 0;
+        for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
+            const Triangle cap{volume.indices[i] / 2, volume.indices[i + 1] / 2,
+                               volume.indices[i + 2] / 2};
+            while (faces[f] != cap) ++f;
+            weights[f] = static_cast<std::int8_t>(weights[f] + step);
+        }
+    }
+    return weights;
+}
+
+class Sets {
+public:
+    explicit Sets(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+    std::uint32_t find(std::uint32_t x) {
+        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+        return x;
+    }
+    // The smaller one stays the name of both.
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+// One unit of a face's weight.
+struct CastingFace {
+    std::uint32_t patch = 0;
+    double distance = 0.0;  // from the light, or along its way
+    std::uint32_t face = 0;
+};
+
+class Splitter {
+public:
+    Splitter(const ShadowMesh& mesh, const Volume& volume, const LayerSpace& space,
+             FarVertices far_vertices, std::uint32_t limit)
+        : mesh_(mesh),
+          space_(space),
+          far_vertices_(far_vertices),
+          limit_(limit),
+          weights_(weights_of(mesh, volume)),
+          part_weights_(weights_.size(), 0) {
+        order_faces();
+    }
+
+    std::vector<LayerPart> run() {
+        if (!faces_.empty()) split(0, faces_.size());
+        return std::move(parts_);
+    }
+
+private:
+    [[nodiscard]] int sign_of(const CastingFace& f) const { return weights_[f.face] > 0 ? 1 : -1; }
+    void order_faces();
+    void split(std::size_t begin, std::size_t end);
+    void find_boundary(std::size_t begin, std::size_t end);
+    void emit(std::size_t begin, std::size_t end, std::uint32_t layers);
+
+    const ShadowMesh& mesh_;
+    const LayerSpace& space_;
+    FarVertices far_vertices_;
+    std::uint32_t limit_;
+    std::vector<std::int8_t> weights_;
+    std::vector<std::int8_t> part_weights_;
+    std::vector<CastingFace> faces_;
+    std::vector<SilhouetteEdge> boundary_;
+    std::vector<LayerPart> parts_;
+};
+
+void Splitter::order_faces() {
+    Sets sets(weights_.size());
+    const auto uses = mesh_.uses();
+    for (const Edge& edge : mesh_.edges()) {
+        std::int32_t sum = 0;
+        for (std::uint32_t i = edge.first_use; i < edge.first_use + edge.use_count; ++i) {
+            sum += uses[i].sign * weights_[uses[i].face];
+        }
+        if (sum != 0) continue;
+        const FaceUse* first = nullptr;
+        for (std::uint32_t i = edge.first_use; i < edge.first_use + edge.use_count; ++i) {
+            if (weights_[uses[i].face] == 0) continue;
+            if (first != nullptr) sets.join(first->face, uses[i].face);
+            first = &uses[i];
+        }
+    }
+    const glm::dvec3 light(space_.light);
+    for (std::uint32_t f = 0; f < weights_.size(); ++f) {
+        if (weights_[f] == 0) continue;
+        glm::dvec3 center(0.0);
+        for (const std::uint32_t v : mesh_.faces()[f]) {
+            center += glm::dvec3(mesh_.positions()[v]) / 3.0;
+        }
+        center = glm::dvec3(space_.space_from_local * glm::dvec4(center, 1.0));
+        const double distance =
+            space_.light.w == 0.0 ? -glm::dot(center, light) : glm::length(center - light);
+        for (int i = 0; i < std::abs(weights_[f]); ++i) {
+            faces_.push_back({sets.find(f), distance, f});
+        }
+    }
+    std::sort(faces_.begin(), faces_.end(), [](const CastingFace& a, const CastingFace& b) {
+        return std::tie(a.patch, a.distance, a.face) < std::tie(b.patch, b.distance, b.face);
+    });
+}
+
+// The signed sum over the faces' own edges, in the order of find_silhouette.
+void Splitter::find_boundary(std::size_t begin, std::size_t end) {
+    boundary_.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+        const Triangle& face = mesh_.faces()[faces_[i].face];
+        const std::int32_t weight = sign_of(faces_[i]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = face[k];
+            const std::uint32_t b = face[(k + 1) % 3];
+            if (a != b)
+                boundary_.push_back({std::min(a, b), std::max(a, b), a < b ? weight : -weight});
+        }
+    }
+    std::sort(boundary_.begin(), boundary_.end());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < boundary_.size();) {
+        SilhouetteEdge sum = boundary_[i];
+        for (++i;
+             i < boundary_.size() && boundary_[i].from == sum.from && boundary_[i].to == sum.to;
+             ++i) {
+            sum.count += boundary_[i].count;
+        }
+        if (sum.count < 0) sum = {sum.to, sum.from, -sum.count};
+        if (sum.count != 0) boundary_[kept++] = sum;
+    }
+    boundary_.resize(kept);
+}
+
+void Splitter::split(std::size_t begin, std::size_t end) {
+    find_boundary(begin, end);
+    std::vector<Triangle> casting;
+    casting.reserve(end - begin);
+    for (std::size_t i = begin; i < end; ++i) casting.push_back(mesh_.faces()[faces_[i].face]);
+    const std::uint32_t layers = internal::bound_layers(mesh_, casting, boundary_, space_);
+    if (layers <= limit_) {
+        emit(begin, end, layers);
+        return;
+    }
+    // In so many parts as are needed at least, and so that no part is left with a few layers.
+    const std::size_t parts = (layers + limit_ - 1) / limit_;
+    std::size_t middle = begin + std::max<std::size_t>(1, (end - begin) * (parts / 2) / parts);
+    const auto is_cut = [&](std::size_t i) { return faces_[i - 1].patch != faces_[i].patch; };
+    std::size_t before = middle;
+    while (before > begin && !is_cut(before)) --before;
+    std::size_t after = middle;
+    while (after < end && !is_cut(after)) ++after;
+    if (before > begin && (after == end || middle - before <= after - middle)) {
+        middle = before;
+    } else if (after < end) {
+        middle = after;
+    }
+    split(begin, middle);
+    split(middle, end);
+}
+
+void Splitter::emit(std::size_t begin, std::size_t end, std::uint32_t layers) {
+    for (std::size_t i = begin; i < end; ++i) {
+        std::int8_t& weight = part_weights_[faces_[i].face];
+        weight = static_cast<std::int8_t>(weight + sign_of(faces_[i]));
+    }
+    LayerPart& part = parts_.emplace_back();
+    part.layers = layers;
+    build_volume(mesh_, part_weights_, boundary_, space_.light.w == 0.0, far_vertices_,
+                 part.volume);
+    for (std::size_t i = begin; i < end; ++i) part_weights_[faces_[i].face] = 0;
+}
+
+}  // namespace
+
+std::vector<LayerPart> split_volume(const ShadowMesh& mesh, const Volume& volume,
+                                    const LayerSpace& space, FarVertices far_vertices,
+                                    std::uint32_t limit) {
+    GNOMON_EXPECTS(limit >= 1);
+    return Splitter(mesh, volume, space, far_vertices, limit).run();
+}
+
+}  // namespace gnomon::shadows
