@@ -51,17 +51,17 @@ TwoTerms two_product(double a, double b) {
     return {high, std::fma(a, b, -high)};
 }
 
-Expansion difference(float a, float b) {
-    const TwoTerms d = two_sum(static_cast<double>(a), -static_cast<double>(b));
+Expansion difference(double a, double b) {
+    const TwoTerms d = two_sum(a, -b);
     Expansion e;
     e.push(d.low);
     e.push(d.high);
     return e;
 }
 
-Expansion single(float a) {
+Expansion single(double a) {
     Expansion e;
-    e.push(static_cast<double>(a));
+    e.push(a);
     return e;
 }
 
@@ -123,7 +123,7 @@ int sign(const Expansion& e) {
 
 using Vector = std::array<Expansion, 3>;
 
-Vector difference(const glm::vec3& a, const glm::vec3& b) {
+Vector difference(const glm::dvec3& a, const glm::dvec3& b) {
     return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
 }
 
@@ -132,20 +132,41 @@ Vector cross(const Vector& u, const Vector& v) {
             minor(u[0], u[1], v[0], v[1])};
 }
 
+// From a point to the light, or the way to it.
+Vector towards(const glm::dvec4& light, const glm::dvec3& from) {
+    if (light.w != 0.0) return difference(glm::dvec3(light), from);
+    return {single(light.x), single(light.y), single(light.z)};
+}
+
 }  // namespace
 
-int exact_facing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, LightLocal light) {
+int exact_orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                      const glm::dvec4& light) {
     const Vector normal = cross(difference(b, a), difference(c, a));
-    const glm::vec3 l(light.position);
-    const Vector towards =
-        light.is_directional() ? Vector{single(l.x), single(l.y), single(l.z)} : difference(l, a);
+    const Vector to_light = towards(light, a);
     Expansion total;
-    for (std::size_t i = 0; i < 3; ++i) total = sum(total, product(normal[i], towards[i]));
+    for (std::size_t i = 0; i < 3; ++i) total = sum(total, product(normal[i], to_light[i]));
     return sign(total);
 }
 
+int exact_facing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, LightLocal light) {
+    return exact_orientation(glm::dvec3(a), glm::dvec3(b), glm::dvec3(c),
+                             glm::dvec4(light.position));
+}
+
+int exact_side(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec4& light,
+               const glm::dvec3& x) {
+    if (const int side = exact_orientation(x, p, q, light); side != 0) return side;
+    // The determinant is (p - x) . n: moved by (t, t^2, t^3), x changes it by -t n.x, and so on.
+    for (const Expansion& component : cross(difference(q, p), towards(light, p))) {
+        if (const int side = -sign(component); side != 0) return side;
+    }
+    return 0;
+}
+
 bool exactly_collinear(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    const Vector normal = cross(difference(b, a), difference(c, a));
+    const Vector normal =
+        cross(difference(glm::dvec3(b), glm::dvec3(a)), difference(glm::dvec3(c), glm::dvec3(a)));
     return sign(normal[0]) == 0 && sign(normal[1]) == 0 && sign(normal[2]) == 0;
 }
 

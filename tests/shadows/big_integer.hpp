@@ -21,25 +21,29 @@ class BigInteger {
 public:
     BigInteger() = default;
 
-    /// value * 2^149, exactly.
-    static BigInteger of_float(float value) {
+    /// value * 2^149, exactly, of a multiple of 2^-149.
+    static BigInteger of(double value) {
         int exponent = 0;
-        // 24 bits of mantissa: value = mantissa * 2^(exponent - 24); zero shifts nothing.
-        const double fraction = std::frexp(static_cast<double>(value), &exponent);
-        auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 24));
-        int shift = exponent - 24 + 149;
+        // 53 bits of mantissa: value = mantissa * 2^(exponent - 53); zero shifts nothing.
+        const auto mantissa =
+            static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
+        int shift = exponent - 53 + 149;
         BigInteger result;
         if (mantissa == 0) return result;
         result.negative_ = mantissa < 0;
         auto magnitude = static_cast<std::uint64_t>(mantissa < 0 ? -mantissa : mantissa);
-        for (; shift < 0; ++shift) magnitude >>= 1U;  // a subnormal's low bits are zero
-        magnitude <<= static_cast<unsigned>(shift % 32);
+        for (; shift < 0; ++shift) magnitude >>= 1U;  // the low bits of such a number are zero
+        const auto bits = static_cast<unsigned>(shift % 32);
+        const std::uint64_t low = (magnitude & 0xFFFFFFFFU) << bits;
+        const std::uint64_t high = ((magnitude >> 32U) << bits) + (low >> 32U);
         result.digits_.assign(static_cast<std::size_t>(shift / 32), 0U);
-        result.digits_.push_back(static_cast<std::uint32_t>(magnitude));
-        result.digits_.push_back(static_cast<std::uint32_t>(magnitude >> 32U));
+        for (const std::uint64_t digit : {low, high, high >> 32U}) {
+            result.digits_.push_back(static_cast<std::uint32_t>(digit));
+        }
         result.trim();
         return result;
     }
+    static BigInteger of_float(float value) { return of(static_cast<double>(value)); }
 
     [[nodiscard]] int sign() const { return digits_.empty() ? 0 : (negative_ ? -1 : 1); }
 
