@@ -13,6 +13,7 @@
 
 #include "internal/face_filter.hpp"
 #include "internal/face_plane.hpp"
+#include "internal/flattened_facing.hpp"
 
 namespace gnomon::shadows {
 
@@ -175,7 +176,7 @@ void classify_faces_flattened(const ShadowMesh& mesh, const glm::dmat4& parent_f
     const auto faces = mesh.faces();
     const auto positions = mesh.positions();
     const auto place = [&](std::uint32_t v) {
-        return glm::dvec3(parent_from_local * glm::dvec4(glm::dvec3(positions[v]), 1.0));
+        return internal::flattened_place(parent_from_local, positions[v]);
     };
     out.stats = {};
     out.stats.faces = faces.size();
@@ -184,14 +185,9 @@ void classify_faces_flattened(const ShadowMesh& mesh, const glm::dmat4& parent_f
     out.solid_averted.assign(mesh.components().size(), 0);
     out.margin = 0.0;
     for (std::size_t f = 0; f < faces.size(); ++f) {
-        const glm::dvec3 a = place(faces[f][0]);
-        const glm::dvec3 n = glm::cross(place(faces[f][1]) - a, place(faces[f][2]) - a);
-        const glm::dvec3 t = glm::dvec3(light_parent) - light_parent.w * a;
-        const double s = glm::dot(n, t);
-        // The corners carry rounding of their own; nearly edge-on counts as edge-on. Whatever is
-        // decided here, the volume is closed.
-        const double bound = 1e-12 * glm::length(n) * glm::length(t);
-        if (std::abs(s) > bound) out.weights[f] = s > 0.0 ? 1 : -1;
+        const int side = internal::flattened_facing(place(faces[f][0]), place(faces[f][1]),
+                                                    place(faces[f][2]), light_parent);
+        out.weights[f] = static_cast<std::int8_t>(side);
     }
 }
 

@@ -17,22 +17,35 @@ namespace {
 
 using internal::Triangle;
 
-// The weights that a volume was built from. Its caps list the faces in the mesh's order, so one
-// walk along both finds them; where neighbouring faces are equal any of them may have the weight.
-std::vector<std::int8_t> weights_of(const ShadowMesh& mesh, const Volume& volume) {
+// What a volume was built from.
+struct Source {
+    std::vector<std::int8_t> weights;
+    std::vector<std::uint8_t> solid_averted;  // by component
+};
+
+// Each cap range lists faces in the mesh's order, so one walk along both finds them; where
+// neighbouring faces are equal any of them may have the weight.
+Source source_of(const ShadowMesh& mesh, const Volume& volume) {
     const auto faces = mesh.faces();
-    std::vector<std::int8_t> weights(faces.size(), 0);
-    for (const auto& [range, step] :
-         {std::pair(volume.near_cap, 1), std::pair(volume.near_cap_flipped, -1)}) {
+    Source source{std::vector<std::int8_t>(faces.size(), 0),
+                  std::vector<std::uint8_t>(mesh.components().size(), 0)};
+    const auto walk = [&](const IndexRange& range, int step, const auto& visit) {
         std::size_t f = 0;
         for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
             const Triangle cap{volume.indices[i] / 2, volume.indices[i + 1] / 2,
                                volume.indices[i + 2] / 2};
             while (faces[f] != cap) ++f;
-            weights[f] = static_cast<std::int8_t>(weights[f] + step);
+            source.weights[f] = static_cast<std::int8_t>(source.weights[f] + step);
+            visit(f);
         }
-    }
-    return weights;
+    };
+    const IndexRange& averted = volume.near_cap_averted;  // the last part of the flipped ones
+    const IndexRange open{volume.near_cap_flipped.first,
+                          volume.near_cap_flipped.count - averted.count};
+    walk(volume.near_cap, 1, [](std::size_t) {});
+    walk(open, -1, [](std::size_t) {});
+    walk(averted, -1, [&](std::size_t f) { source.solid_averted[mesh.face_components()[f]] = 1; });
+    return source;
 }
 
 class Sets {
@@ -70,7 +83,8 @@ public:
           space_(space),
           far_vertices_(far_vertices),
           limit_(limit),
-          weights_(weights_of(mesh, volume)),
+          source_(source_of(mesh, volume)),
+          weights_(source_.weights),
           part_weights_(weights_.size(), 0) {
         order_faces();
     }
@@ -91,7 +105,8 @@ private:
     const LayerSpace& space_;
     FarVertices far_vertices_;
     std::uint32_t limit_;
-    std::vector<std::int8_t> weights_;
+    Source source_;
+    std::span<const std::int8_t> weights_;
     std::vector<std::int8_t> part_weights_;
     std::vector<CastingFace> faces_;
     std::vector<SilhouetteEdge> boundary_;
@@ -195,8 +210,8 @@ void Splitter::emit(std::size_t begin, std::size_t end, std::uint32_t layers) {
     }
     LayerPart& part = parts_.emplace_back();
     part.layers = layers;
-    build_volume(mesh_, part_weights_, boundary_, space_.light.w == 0.0, far_vertices_,
-                 part.volume);
+    build_volume(mesh_, part_weights_, boundary_, space_.light.w == 0.0, far_vertices_, part.volume,
+                 source_.solid_averted);
     for (std::size_t i = begin; i < end; ++i) part_weights_[faces_[i].face] = 0;
 }
 

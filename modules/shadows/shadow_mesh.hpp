@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,12 @@
 #include <gnomon/core/result.hpp>
 
 namespace gnomon::shadows {
+
+class ShadowMesh;
+namespace internal {
+class FaceTree;
+const FaceTree& face_tree(const ShadowMesh& mesh);
+}  // namespace internal
 
 /// Triangles as the caller has them; read during build only.
 struct MeshView {
@@ -123,6 +130,7 @@ public:
     [[nodiscard]] glm::vec3 bounds_max() const { return bounds_max_; }
 
 private:
+    friend const internal::FaceTree& internal::face_tree(const ShadowMesh& mesh);
     ShadowMesh() = default;
 
     std::uint64_t id_ = 0;
@@ -136,6 +144,9 @@ private:
     FacePlanes planes_;
     glm::vec3 bounds_min_{0.0F};
     glm::vec3 bounds_max_{0.0F};
+    // What shadow queries search in: made when first asked for, then as immutable as the rest.
+    mutable std::once_flag face_tree_once_;
+    mutable std::shared_ptr<const internal::FaceTree> face_tree_;
 };
 
 }  // namespace gnomon::shadows
