@@ -55,8 +55,9 @@ Result<std::shared_ptr<const shadows::ShadowMesh>> ShadowAdapter::shadow_mesh(
     return known.shadow_mesh;
 }
 
-Status ShadowAdapter::submit(const Scene& scene, shadows::ShadowSystem::Frame& frame, bool culled,
-                             shadows::NearCaps near_caps) {
+Result<std::vector<shadows::Caster>> ShadowAdapter::casters(const Scene& scene, bool culled,
+                                                            shadows::NearCaps near_caps) {
+    std::vector<shadows::Caster> casters;
     Status status;
     scene.registry.each<Caster, MeshInstance, WorldTransform>([&](Entity entity, const Caster&,
                                                                   const MeshInstance& instance,
@@ -67,19 +68,28 @@ Status ShadowAdapter::submit(const Scene& scene, shadows::ShadowSystem::Frame& f
             return;
         }
         const bool drawn_whole = fills_depth(scene, entity, *instance.mesh);
-        frame.caster({.key = entity.key(),
-                      .mesh = *mesh,
-                      .world_from_local = world_from_mesh(transform, *instance.mesh),
-                      .in_depth_buffer = !culled && drawn_whole,
-                      .near_caps = drawn_whole ? near_caps : shadows::NearCaps::Facing});
+        casters.push_back({.key = entity.key(),
+                           .mesh = *mesh,
+                           .world_from_local = world_from_mesh(transform, *instance.mesh),
+                           .in_depth_buffer = !culled && drawn_whole,
+                           .near_caps = drawn_whole ? near_caps : shadows::NearCaps::Facing});
     });
+    if (!status) return forward_error(status);
+    return casters;
+}
+
+Status ShadowAdapter::submit(const Scene& scene, shadows::ShadowSystem::Frame& frame, bool culled,
+                             shadows::NearCaps near_caps) {
+    const auto casters = this->casters(scene, culled, near_caps);
+    if (!casters) return forward_error(casters);
+    for (const shadows::Caster& caster : *casters) frame.caster(caster);
     const auto submit_light = [&](Entity entity, const auto&) {
         if (const auto light = shadow_light(scene.registry, entity)) frame.light(*light);
     };
     scene.registry.each<PointLight>(submit_light);
     scene.registry.each<SpotLight>(submit_light);
     scene.registry.each<DirectionalLight>(submit_light);
-    return status;
+    return {};
 }
 
 }  // namespace gnomon::scene

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <unordered_map>
+#include <vector>
 
 #include <gnomon/core/result.hpp>
 #include <gnomon/scene/scene.hpp>
@@ -27,6 +28,12 @@ public:
     [[nodiscard]] Status submit(const Scene& scene, shadows::ShadowSystem::Frame& frame,
                                 bool culled = false,
                                 shadows::NearCaps near_caps = shadows::NearCaps::Facing);
+
+    /// The casters alone, as submit() submits them: for ShadowQueries. Fails and costs as that
+    /// does.
+    [[nodiscard]] Result<std::vector<shadows::Caster>> casters(
+        const Scene& scene, bool culled = false,
+        shadows::NearCaps near_caps = shadows::NearCaps::Facing);
 
     /// The shadow mesh of a mesh: one for all its nodes.
     [[nodiscard]] Result<std::shared_ptr<const shadows::ShadowMesh>> shadow_mesh(
