@@ -23,6 +23,8 @@ using internal::DrawnAs;
 using internal::JsonPlace;
 
 constexpr double smallest_size = 1e-9;
+/// The reach of a shape is the sum of its lengths, and has to be finite in single precision.
+constexpr double largest_size = 1e38;
 
 double number_or(const JsonPlace& place, const char* name, double otherwise,
                  double min = -JsonPlace::largest, double max = JsonPlace::largest) {
@@ -36,7 +38,7 @@ float float_or(const JsonPlace& place, const char* name, double otherwise, doubl
 }
 
 float length_or(const JsonPlace& place, const char* name, double otherwise) {
-    return float_or(place, name, otherwise, smallest_size);
+    return float_or(place, name, otherwise, smallest_size, largest_size);
 }
 
 std::uint32_t segments_or(const JsonPlace& place, const char* name, std::uint32_t otherwise,
