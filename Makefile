@@ -32,17 +32,18 @@ build: build/build.ninja ## libraries, programs and examples; programs lie in bu
 demo: build ## draw the demonstration pictures
 	@scripts/demo
 
-# Both suites run whatever becomes of the first, and the closing line is the main suite's.
-test: build/build.ninja build/asan/build.ninja ## build and run all tests, the CPU modules under ASan and UBSan too
+# All suites run whatever becomes of the first, and the closing line is the main suite's.
+test: build/build.ninja build/asan/build.ninja ## build and run all tests, under ASan and UBSan too, and fuzz for 30 s a target
 	@cmake --build --preset release
 	@cmake --build --preset asan
 	@status=0; \
+	JOBS=$(JOBS) scripts/fuzz 30 || status=$$?; \
 	ctest --preset asan -j$(JOBS) || status=$$?; \
 	ctest --preset release -j$(JOBS) || status=$$?; \
 	[ $$status -eq 0 ] || echo "make test: a test failed, see above"; \
 	exit $$status
 
-soak: build/build.ninja build/asan-full/build.ninja build/tsan/build.ninja ## the long tests, and every sanitizer
+soak: build/build.ninja build/asan-full/build.ninja build/tsan/build.ninja ## the long tests, every sanitizer, and an hour of fuzzing
 	@scripts/setup --soak
 	@cmake --build --preset release
 	@ctest --preset soak
@@ -50,6 +51,7 @@ soak: build/build.ninja build/asan-full/build.ninja build/tsan/build.ninja ## th
 	@ctest --preset asan-full -j$(JOBS)
 	@cmake --build --preset tsan
 	@ctest --preset tsan -j$(JOBS)
+	@JOBS=$(JOBS) scripts/fuzz 720
 
 bench: build ## run the benchmarks; their results also go to build/bench.json
 	@cmake -S . -B build -DGNOMON_BENCH=ON >/dev/null

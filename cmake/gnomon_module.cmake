@@ -35,12 +35,23 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(gnomon_compile_options INTERFACE -Wno-restrict)
 endif()
+# To GCC every source of a unity build is an included file, whose anonymous namespaces should not be in types.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(gnomon_compile_options INTERFACE -Wno-subobject-linkage)
+endif()
 if(GNOMON_SANITIZE)
   target_compile_options(gnomon_compile_options INTERFACE
     -fsanitize=${GNOMON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
     # GCC sees uninitialised values in <regex> and others where the sanitizers have added branches.
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(gnomon_compile_options INTERFACE -fsanitize=${GNOMON_SANITIZE})
+endif()
+if(GNOMON_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "GNOMON_FUZZ needs clang, whose libFuzzer it uses; the compiler is ${CMAKE_CXX_COMPILER_ID}")
+  endif()
+  # Coverage of everything that the fuzz targets reach; their main() comes with -fsanitize=fuzzer (tests/fuzz).
+  target_compile_options(gnomon_compile_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # gnomon_add_library(<name> SOURCES ... [PUBLIC deps...] [PRIVATE deps...])

@@ -6,9 +6,9 @@
 namespace gnomon::gl {
 namespace {
 
-GlStencilFace to_gl(const gpu::StencilFaceState& face) {
-    return {gl::to_gl(face.compare), gl::to_gl(face.fail_op), gl::to_gl(face.depth_fail_op),
-            gl::to_gl(face.pass_op)};
+GlStencilFace face_to_gl(const gpu::StencilFaceState& face) {
+    return {to_gl(face.compare), to_gl(face.fail_op), to_gl(face.depth_fail_op),
+            to_gl(face.pass_op)};
 }
 
 }  // namespace
@@ -16,8 +16,8 @@ GlStencilFace to_gl(const gpu::StencilFaceState& face) {
 GlStencil to_gl(const std::optional<gpu::DepthStencilState>& state) {
     if (!state || !gpu::has_stencil(state->format)) return {};
     GlStencil stencil{.enabled = true,
-                      .front = to_gl(state->stencil_front),
-                      .back = to_gl(state->stencil_back),
+                      .front = face_to_gl(state->stencil_front),
+                      .back = face_to_gl(state->stencil_back),
                       .read_mask = state->stencil_read_mask,
                       .write_mask = state->stencil_write_mask};
     stencil.enabled = stencil.front != GlStencilFace{} || stencil.back != GlStencilFace{};
