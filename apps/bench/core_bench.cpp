@@ -38,12 +38,12 @@ void build_mesh(benchmark::State& state) {
     per_triangle(state, *mesh);
 }
 
-void classify(benchmark::State& state) {
+void classify(benchmark::State& state, shadows::FacingFilter filter) {
     const auto mesh = torus_knot(state.range(0));
     shadows::Facing facing;
     std::int64_t step = 0;
     for (auto _ : state) {
-        shadows::classify_faces(*mesh, light_at(step++), facing);
+        shadows::classify_faces(*mesh, light_at(step++), facing, filter);
         benchmark::DoNotOptimize(facing.weights.data());
     }
     per_triangle(state, *mesh);
@@ -81,7 +81,14 @@ void volume(benchmark::State& state) {
 }
 
 BENCHMARK(build_mesh)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond);
-BENCHMARK(classify)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(classify, simd, shadows::FacingFilter::Simd)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(classify, scalar, shadows::FacingFilter::Scalar)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK(silhouette_brute_force)
     ->RangeMultiplier(10)
     ->Range(1000, 1000000)

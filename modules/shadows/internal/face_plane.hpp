@@ -15,7 +15,7 @@
 namespace gnomon::shadows::internal {
 
 /// Planes with a larger error have an infinite one instead, so that the single-precision filter
-/// leaves them alone: slivers of some 2^39 times their height.
+/// leaves them alone: slivers some 2^37 times as long as high.
 inline constexpr float largest_face_error = 0x1p-12F;
 /// What is left, at least, of a distance to a rounded plane for the exact one, whose normal may be
 /// longer by largest_face_error.
