@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -64,6 +65,24 @@ std::string places(const truth::Judgement& judgement, std::uint32_t width) {
     return text;
 }
 
+// Where equal bytes are not to be had: rows that must differ, and fail when they do not any more.
+struct KnownLoss {
+    std::string_view device;
+    std::string_view hard_case;
+};
+// Mesa 22.3 draws a sliver that clipping and snapping leave almost without area by neither pass of
+// the two-pass path (docs/backends.md).
+constexpr std::array<KnownLoss, 2> known_losses{{
+    {"gl_osmesa_two_pass", "02_light_in_the_plane_of_a_cubes_side"},
+    {"gl_osmesa_two_pass", "02_light_in_the_plane_of_a_cubes_side_by_depth_fail"},
+}};
+
+bool is_known_loss(std::string_view device, std::string_view hard_case) {
+    return std::any_of(known_losses.begin(), known_losses.end(), [&](const KnownLoss& known) {
+        return device == known.device && hard_case == known.hard_case;
+    });
+}
+
 class HardCases : public testing::TestWithParam<HardCase> {};
 
 TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
@@ -83,6 +102,7 @@ TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
     if (devices.empty()) GTEST_SKIP() << "no device of this kind";
 
     std::vector<truth::Judgement> totals(devices.size());
+    std::vector<std::size_t> lost(devices.size());  // bytes, where a loss is known
     for (int frame = 0; frame < hard_case.frames; ++frame) {
         const Setting setting = hard_case.make(frame);
         Truths truths;
@@ -94,6 +114,7 @@ TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
                 reference = picture;
             }
             ASSERT_EQ(picture.masks.size(), truths.size());
+            const bool known_loss = is_known_loss(names[d], hard_case.name);
             for (std::size_t light = 0; light < truths.size(); ++light) {
                 for (std::size_t sample = 0; sample < truths[light].size(); ++sample) {
                     const auto& mask = picture.masks[light][sample];
@@ -101,7 +122,8 @@ TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
                     add(totals[d], one);
                     const std::size_t differ =
                         differing_bytes(mask, reference.masks[light][sample]);
-                    if (differ == 0) continue;
+                    if (known_loss) lost[d] += differ;
+                    if (known_loss || differ == 0) continue;
                     ADD_FAILURE() << names[d] << ": " << differ << " bytes of frame " << frame
                                   << ", light " << light << " differ from " << names[0] << "; see "
                                   << save_difference(
@@ -109,6 +131,15 @@ TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
                                          options.width, options.height, mask,
                                          reference.masks[light][sample]);
                 }
+            }
+            if (known_loss) {
+                EXPECT_LE(totals[d].wrong(), lost[d]) << names[d];
+                continue;
+            }
+            if (!hard_case.fails_because.empty()) {
+                EXPECT_GT(totals[d].wrong(), 0U) << names[d] << ": right, although "
+                                                 << hard_case.fails_because << ", frame " << frame;
+                continue;
             }
             EXPECT_EQ(totals[d].wrong(), 0U)
                 << names[d] << ", up to frame " << frame << ": " << totals[d].false_shadow
@@ -118,6 +149,10 @@ TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
         }
     }
 
+    for (std::size_t d = 0; d < devices.size(); ++d) {
+        if (!is_known_loss(names[d], hard_case.name)) continue;
+        EXPECT_GT(lost[d], 0U) << names[d] << " loses nothing here any more: take it off the list";
+    }
     const truth::Judgement& total = totals.front();
     const auto judged = static_cast<double>(total.judged());
     const double band =
@@ -150,10 +185,18 @@ INSTANTIATE_TEST_SUITE_P(Rows, HardCases, testing::ValuesIn(hard_cases()),
 
 }  // namespace
 
+void add_by_both(std::vector<HardCase>& cases, HardCase hard_case) {
+    cases.push_back(hard_case);
+    hard_case.name += "_by_depth_fail";
+    hard_case.options.technique = shadows::Technique::DepthFail;
+    cases.push_back(std::move(hard_case));
+}
+
 const std::vector<HardCase>& hard_cases() {
     static const std::vector<HardCase> all = [] {
         std::vector<HardCase> cases;
-        for (auto family : {topology_cases, light_cases, camera_cases, pose_cases, layer_cases}) {
+        for (auto family : {topology_cases, dirty_mesh_cases, adjoining_cases, caster_cases,
+                            light_cases, camera_cases, pose_cases, layer_cases}) {
             auto more = family();
             cases.insert(cases.end(), more.begin(), more.end());
         }
