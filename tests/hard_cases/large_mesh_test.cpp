@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// Row 18: a mesh of more than four million triangles, on every device, against traced truth. A long
+// test (label soak): the truth alone takes most of the time and two gigabytes.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include <gnomon/scene/primitives.hpp>
+#include <gnomon/scene/shadow_adapter.hpp>
+#include <gnomon/truth/truth.hpp>
+
+#include "tests/rows/picture.hpp"
+#include "tests/rows/stage.hpp"
+#include "tests/support/devices.hpp"
+
+namespace gnomon::test {
+namespace {
+
+TEST(LargeMesh, of_four_million_triangles_casts_its_shadow) {
+    Stage s;
+    s.ground();
+    const MeshPointer torus = shared(scene::make_torus(1.0F, 0.4F, 2048, 1024));
+    ASSERT_GT(torus->triangle_count(), 4'000'000U);
+    s.place(torus, moved({0.0, 1.5, 0.0}) * turned(50, {1.0, 0.0, 0.4}));
+    s.lamp({1.75, 4.5, 1.25});
+    s.look({0.0, 3.2, 4.6}, {0.0, 0.6, 0.0});
+    const Setting setting = s.finish();
+
+    std::optional<truth::Picture> traced;
+    std::vector<std::uint8_t> reference;
+    for (const DeviceCase& device_case : drawing_devices()) {
+        SCOPED_TRACE(device_case.name);
+        auto device = open_device(device_case);  // given back with all its memory
+        if (!device) {
+            EXPECT_FALSE(is_required(device_case.name)) << device.error().message;
+            continue;
+        }
+        const Picture picture = must(take_picture((*device)->device, setting, {}));
+        const auto& mask = picture.masks[0][0];
+        if (!traced) {
+            const auto light = scene::shadow_light(
+                setting.scene.registry, scene::Entity::from_key(picture.list.lights[0].light));
+            const glm::dvec3 eye(glm::inverse(setting.view.view_from_world)[3]);
+            traced = must(truth::Tracer::build(truth::instances_of(setting.scene), eye))
+                         .trace(setting.view, *light, {.width = row_width, .height = row_height});
+            reference = mask;
+        }
+        const truth::Judgement judgement = truth::judge(*traced, mask);
+        EXPECT_EQ(judgement.wrong(), 0U);
+        EXPECT_GT(judgement.shadowed, judgement.judged() / 20);
+        EXPECT_EQ(differing_bytes(mask, reference), 0U);
+    }
+    if (!traced) GTEST_SKIP() << "no device of this kind";
+}
+
+}  // namespace
+}  // namespace gnomon::test
