@@ -52,8 +52,8 @@ enum class AvertedFaces : std::uint8_t {
 /// towards it. As gpu::DepthStencilState has it: `constant` in the depth buffer's smallest steps,
 /// `slope_scale` in steps of one pixel along the surface.
 ///
-/// What may be decided wrongly is a surface that lies between a cap and where the bias moves it, and
-/// nothing else (docs/numerics.md, "Near caps").
+/// What may be decided wrongly is a surface that lies between a cap and where the bias moves it,
+/// and nothing else (docs/numerics.md, "Near caps").
 struct CapBias {
     std::int32_t constant = 0;
     float slope_scale = 0.0F;
