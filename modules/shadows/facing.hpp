@@ -60,9 +60,10 @@ enum class FacingFilter : std::uint8_t {
     Scalar,  ///< one by one: the reference that tests hold the other against
 };
 
-/// Every weight is exact for `light` as it is; both filters give the same bits in all of `out`. A
-/// light that is not finite casts nothing, with margin 0. Cost: linear, about a nanosecond a face,
-/// and some microseconds for each face that needs exact arithmetic.
+/// Every weight is exact for `light` as it is, the same bits in every build; both filters give the
+/// same margin too, unless the compiler fuses products with sums. A light that is not finite casts
+/// nothing, with margin 0. Cost: linear, some nanoseconds a face, and some microseconds for each
+/// face that needs exact arithmetic.
 void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out,
                     NearCaps near_caps = NearCaps::Facing,
                     FacingFilter filter = FacingFilter::Simd);

@@ -52,6 +52,9 @@ TEST_F(Stats, every_member_is_there) {
             EXPECT_GT(frame["silhouette_edges"].get<int>(), 15);
             EXPECT_GT(frame["upload_bytes"].get<int>(), 0);
             EXPECT_GT(frame["draw_calls"].get<int>(), 15);
+            const auto in_double = frame["double_tests"].get<std::uint64_t>();
+            EXPECT_LE(in_double, frame["faces_tested"].get<std::uint64_t>());
+            EXPECT_LE(frame["exact_tests"].get<std::uint64_t>(), in_double);
             const auto& fragments = frame["stencil_fragments"];
             EXPECT_TRUE(frame.contains("stencil_fragments") &&
                         (fragments.is_null() || fragments.is_number_unsigned()));

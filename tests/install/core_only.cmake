@@ -36,7 +36,7 @@ if(NOT core STREQUAL "ccache;glm;tl-expected")
   message(FATAL_ERROR "The core alone looks for ${core}, where ccache;glm;tl-expected was expected.")
 endif()
 looked_for(core_with_tests core-only)
-if(NOT core_with_tests STREQUAL "GTest;ccache;glm;tl-expected")
+if(NOT core_with_tests STREQUAL "CGAL;GTest;ccache;glm;tl-expected")
   message(FATAL_ERROR "The core and its tests look for ${core_with_tests}.")
 endif()
 # The proof that this test would see it: the whole library does look for more.

@@ -161,7 +161,7 @@ TEST_F(SceneDescription, mistakes_are_named_with_their_place) {
         {R"({"primitives": [{"shape": "box", "radius": 1}]})",
          {"primitives[0]", "\"radius\"", "size"}},
         {R"({"primitives": [{"shape": "sphere", "radius": 0}]})", {"primitives[0].radius is 0"}},
-        {R"({"primitives": [{"shape": "torus", "ring_radius": 3e38, "tube_radius": 3e38}]})",
+        {R"({"primitives": [{"shape": "torus", "ring_radius": 3e38}]})",
          {"primitives[0].ring_radius is 3e+38", "to 1e+38"}},
         {R"({"primitives": [{"shape": "sphere", "slices": 2}]})",
          {"primitives[0].slices is 2", "from 3 to 2048"}},

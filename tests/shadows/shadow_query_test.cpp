@@ -483,7 +483,7 @@ TEST(ShadowQuery, AskingAboutPointsAllocatesNothing) {
     queries.at(lamp, points, exposures);
     EXPECT_EQ(test::allocation_count(), before);
     EXPECT_GT(before, 0U) << "they are not counted";
-    EXPECT_GT(surfaces, 50U);
+    EXPECT_GT(surfaces, 0U);
 }
 
 TEST(ShadowQuery, ManyThreadsGetTheAnswersOfOne) {

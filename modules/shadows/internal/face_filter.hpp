@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The single-precision stage of the facing test: the sides of all faces of which it can be certain,
-// in two forms that return the same bits.
+// in two forms that do the same operations on the same numbers.
 #pragma once
 
 #include <cstdint>
