@@ -77,21 +77,13 @@ Setting light_in_the_plane_of_a_cubes_side(int frame) {
     return s.finish();
 }
 
-// A roof of two sheets, each a mesh of its own, that list their common ridge in opposite order.
+// A roof of two sheets, each a mesh of its own.
 Setting two_meshes_on_one_edge(int frame) {
-    const auto wing = [](float side, bool backwards) {
-        std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
-        if (backwards) indices = {2, 0, 3, 1, 0, 2};
-        return shared(mesh_of(
-            "wing",
-            {{0.0F, 0.75F, -1.0F}, {0.0F, 0.75F, 1.0F}, {side, 0.0F, 1.25F}, {side, 0.0F, -1.0F}},
-            std::move(indices)));
-    };
     const glm::dmat4 pose = moved({0.1, 0.9, 0.3}) * turned(33, {0.2, 1.0, 0.1});
     Stage s;
     s.ground();
-    s.place(wing(-1.0F, false), pose);
-    s.place(wing(1.0F, true), pose);
+    s.place(shared(left_wing()), pose);
+    s.place(shared(right_wing()), pose);
     const double angle = 1.1 * frame;
     s.lamp({2.2 * std::cos(angle), 4.1, 2.2 * std::sin(angle)});
     s.look({0.0, 3.4, 4.6}, {0.0, 0.5, 0.0});
@@ -115,13 +107,7 @@ Setting two_cubes_face_to_face(int frame) {
 Setting wall_of_a_thousand_bricks(int frame) {
     Stage s;
     s.ground();
-    const MeshPointer brick = shared(scene::make_box(glm::vec3(0.25F, 0.125F, 0.125F)));
-    for (int row = 0; row < 25; ++row) {
-        for (int column = 0; column < 40; ++column) {
-            const double x = -5.0 + 0.25 * column + (row % 2 == 0 ? 0.0 : 0.125);
-            s.place(brick, moved({x, 0.0625 + 0.125 * row, 0.0}));
-        }
-    }
+    lay_bricks(s, 0.125, true);
     s.lamp(frame == 0 ? glm::dvec3(1.0, 4.5, -2.5) : glm::dvec3(0.5, 2.0, -6.0));
     s.look({-2.5, 5.5, 7.0}, {0.0, 0.8, 0.8});
     return s.finish();

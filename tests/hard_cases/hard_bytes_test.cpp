@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include <gnomon/scene/primitives.hpp>
 
@@ -71,42 +73,37 @@ TEST_P(HardBytes, seams_and_the_sign_of_zero_change_nothing) {
 
 // Row 34: neither wall is drawn, so both pictures show the same ground.
 TEST_P(HardBytes, a_wall_of_1000_bricks_leaks_no_pixel) {
-    const auto picture_of = [&](bool bricks, const glm::dvec3& lamp) {
+    const auto picture_of = [&](std::optional<double> shift_m, const glm::dvec3& lamp) {
         Stage s;
         s.ground();
-        if (bricks) {
-            const MeshPointer brick = shared(scene::make_box(glm::vec3(0.25F, 0.125F, 0.125F)));
-            for (int row = 0; row < 25; ++row) {
-                for (int column = 0; column < 40; ++column) {
-                    const double x = -5.0 + 0.25 * column + (row % 2 == 0 ? 0.0 : 0.125);
-                    s.place(brick, moved({x, 0.0625 + 0.125 * row, 0.0}), true, false);
-                }
-            }
+        if (shift_m) {
+            lay_bricks(s, *shift_m, false);
         } else {  // a slab that lies within the wall
-            s.place(shared(scene::make_box(glm::vec3(9.75F, 3.0F, 0.0625F))),
-                    moved({0.0, 1.5625, 0.0}), true, false);
+            s.place(shared(scene::make_box(glm::vec3(9.5F, 3.0F, 0.0625F))),
+                    moved({-0.125, 1.5625, 0.0}), true, false);
         }
         s.lamp(lamp);
         s.look({-2.5, 5.5, 7.0}, {0.0, 0.8, 0.8});
         return take(s.finish());
     };
+    // Bricks upon bricks have their edges in common. Bricks that are shifted have them in line, and
+    // SwiftShader's grid of 1/16 pixel cracks there.
+    const bool coarse_grid = device().caps().adapter.find("SwiftShader") != std::string::npos;
     for (const glm::dvec3& lamp : {glm::dvec3(1.0, 4.5, -2.5), glm::dvec3(0.5, 2.0, -6.0)}) {
-        const Picture slab = picture_of(false, lamp);
+        const Picture slab = picture_of(std::nullopt, lamp);
         EXPECT_GT(dark_pixels(slab), 10000U);
-        EXPECT_EQ(leaks(slab, picture_of(true, lamp)), 0U);
+        EXPECT_EQ(leaks(slab, picture_of(0.0, lamp)), 0U);
+        const std::size_t shifted = leaks(slab, picture_of(0.125, lamp));
+        if (coarse_grid) {
+            EXPECT_GT(shifted, 0U) << "no crack any more";
+        } else {
+            EXPECT_EQ(shifted, 0U);
+        }
     }
 }
 
 // Row 6: a roof of two meshes, neither of them drawn, is a roof of one.
 TEST_P(HardBytes, two_meshes_on_one_edge_cast_as_one) {
-    const auto wing = [](float side, std::vector<std::uint32_t> indices) {
-        return mesh_of(
-            "wing",
-            {{0.0F, 0.75F, -1.0F}, {0.0F, 0.75F, 1.0F}, {side, 0.0F, 1.25F}, {side, 0.0F, -1.0F}},
-            std::move(indices));
-    };
-    const scene::Mesh left = wing(-1.0F, {0, 1, 2, 0, 2, 3});
-    const scene::Mesh right = wing(1.0F, {2, 0, 3, 1, 0, 2});
     const glm::dmat4 pose = moved({0.1, 0.9, 0.3}) * turned(33, {0.2, 1.0, 0.1});
     for (int frame = 0; frame < 4; ++frame) {
         const auto picture_of = [&](const std::vector<scene::Mesh>& meshes) {
@@ -117,8 +114,8 @@ TEST_P(HardBytes, two_meshes_on_one_edge_cast_as_one) {
             s.look({0.0, 3.4, 4.6}, {0.0, 0.5, 0.0});
             return take(s.finish());
         };
-        const Picture two = picture_of({left, right});
-        const Picture one = picture_of({joined(left, right)});
+        const Picture two = picture_of({left_wing(), right_wing()});
+        const Picture one = picture_of({joined(left_wing(), right_wing())});
         EXPECT_GT(dark_pixels(one), 1000U);
         EXPECT_EQ(leaks(one, two), 0U) << "frame " << frame;
         EXPECT_EQ(leaks(two, one), 0U) << "frame " << frame;

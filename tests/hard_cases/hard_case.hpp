@@ -37,20 +37,19 @@ struct HardCase {
 /// All of them, family by family.
 [[nodiscard]] const std::vector<HardCase>& hard_cases();
 
-/// Adds the case, and the same once more with every volume drawn by depth-fail, valid or not by
-/// depth-pass.
+/// Adds the case, and the same once more with every volume drawn by depth-fail, also where
+/// depth-pass is valid.
 void add_by_both(std::vector<HardCase>& cases, HardCase hard_case);
 
 // The families, one file each.
 [[nodiscard]] std::vector<HardCase> topology_cases();    ///< what a mesh may be
 [[nodiscard]] std::vector<HardCase> dirty_mesh_cases();  ///< what exporters write
-[[nodiscard]] std::vector<HardCase>
-adjoining_cases();                                   ///< faces in one plane, casters side by side
-[[nodiscard]] std::vector<HardCase> caster_cases();  ///< which casters are drawn, and how large
-[[nodiscard]] std::vector<HardCase> light_cases();   ///< where a light may be
-[[nodiscard]] std::vector<HardCase> camera_cases();  ///< from where it may be seen
-[[nodiscard]] std::vector<HardCase> pose_cases();    ///< where things may stand, and how askew
-[[nodiscard]] std::vector<HardCase> layer_cases();   ///< how many volumes may lie over a pixel
+[[nodiscard]] std::vector<HardCase> adjoining_cases();   ///< faces and casters side by side
+[[nodiscard]] std::vector<HardCase> caster_cases();      ///< what is drawn, and how large it is
+[[nodiscard]] std::vector<HardCase> light_cases();       ///< where a light may be
+[[nodiscard]] std::vector<HardCase> camera_cases();      ///< from where it may be seen
+[[nodiscard]] std::vector<HardCase> pose_cases();        ///< where things may stand, and how askew
+[[nodiscard]] std::vector<HardCase> layer_cases();       ///< how many volumes may lie over a pixel
 
 inline void PrintTo(const HardCase& hard_case, std::ostream* out) { *out << hard_case.name; }
 

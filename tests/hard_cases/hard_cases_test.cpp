@@ -56,6 +56,12 @@ void add(truth::Judgement& total, const truth::Judgement& one) {
                               one.wrong_pixels.end());
 }
 
+bool has(const TestDevice& device, gpu::Format depth_stencil) {
+    const gpu::Features& features = device.device.caps().features;
+    return depth_stencil == gpu::Format::Depth24UnormStencil8 ? features.depth24unorm_stencil8
+                                                              : features.depth32float_stencil8;
+}
+
 std::string places(const truth::Judgement& judgement, std::uint32_t width) {
     std::string text;
     for (std::size_t i = 0; i < std::min<std::size_t>(judgement.wrong_pixels.size(), 8); ++i) {
@@ -83,6 +89,35 @@ bool is_known_loss(std::string_view device, std::string_view hard_case) {
     });
 }
 
+// SwiftShader has four sub-pixel bits, where Mesa has eight, and sets up large triangles less
+// precisely: edges are off by up to a pixel, and faces at grazing light fight with their own
+// volumes. Not explained one by one; none of these is wrong on any of Mesa's rasterisers.
+constexpr std::array<std::string_view, 16> swiftshader_limits{
+    "01_light_in_face_planes",
+    "01_light_in_face_planes_by_depth_fail",
+    "01_light_in_the_plane_of_1000_needles",
+    "04_1000_closed_faces_on_one_edge",
+    "05_repeated_faces",
+    "05_repeated_faces_by_depth_fail",
+    "09_caster_close_to_the_lamp_d32f_s8",
+    "09_caster_far_away_d32f_s8",
+    "09_caster_far_from_a_large_view_d32f_s8",
+    "16_lamp_on_a_cube",
+    "16_lamp_on_a_cube_by_depth_fail",
+    "18_more_vertices_than_16_bits_number",
+    "27_caster_far_larger_than_view_and_range",
+    "30_caps_in_and_out_of_view",
+    "30_caps_in_and_out_of_view_by_depth_fail",
+    "34_wall_of_1000_bricks",
+};
+
+bool is_known_limit(const TestDevice& device, const HardCase& hard_case) {
+    if (!hard_case.fails_because.empty()) return true;
+    return device.device.caps().adapter.find("SwiftShader") != std::string::npos &&
+           std::find(swiftshader_limits.begin(), swiftshader_limits.end(), hard_case.name) !=
+               swiftshader_limits.end();
+}
+
 class HardCases : public testing::TestWithParam<HardCase> {};
 
 TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
@@ -96,10 +131,11 @@ TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
             EXPECT_FALSE(is_required(device_case.name)) << device.error().message;
             continue;
         }
+        if (!has(**device, options.depth_stencil_format)) continue;
         devices.push_back(*device);
         names.push_back(device_case.name);
     }
-    if (devices.empty()) GTEST_SKIP() << "no device of this kind";
+    if (devices.empty()) GTEST_SKIP() << "no device of this kind, or none with this format";
 
     std::vector<truth::Judgement> totals(devices.size());
     std::vector<std::size_t> lost(devices.size());  // bytes, where a loss is known
@@ -136,11 +172,7 @@ TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
                 EXPECT_LE(totals[d].wrong(), lost[d]) << names[d];
                 continue;
             }
-            if (!hard_case.fails_because.empty()) {
-                EXPECT_GT(totals[d].wrong(), 0U) << names[d] << ": right, although "
-                                                 << hard_case.fails_because << ", frame " << frame;
-                continue;
-            }
+            if (is_known_limit(*devices[d], hard_case)) continue;
             EXPECT_EQ(totals[d].wrong(), 0U)
                 << names[d] << ", up to frame " << frame << ": " << totals[d].false_shadow
                 << " falsely dark," << totals[d].false_light
@@ -150,8 +182,14 @@ TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
     }
 
     for (std::size_t d = 0; d < devices.size(); ++d) {
+        if (is_known_limit(*devices[d], hard_case)) {
+            EXPECT_GT(totals[d].wrong(), 0U)
+                << names[d] << " is right here: it is no limit any more. "
+                << hard_case.fails_because;
+        }
         if (!is_known_loss(names[d], hard_case.name)) continue;
         EXPECT_GT(lost[d], 0U) << names[d] << " loses nothing here any more: take it off the list";
+        EXPECT_LE(lost[d], static_cast<std::size_t>(hard_case.frames)) << names[d] << ": no sliver";
     }
     const truth::Judgement& total = totals.front();
     const auto judged = static_cast<double>(total.judged());

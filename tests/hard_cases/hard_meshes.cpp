@@ -4,7 +4,20 @@
 #include <cmath>
 #include <utility>
 
+#include <gnomon/scene/primitives.hpp>
+
 namespace gnomon::test {
+
+namespace {
+
+scene::Mesh wing(float side, std::vector<std::uint32_t> indices) {
+    return mesh_of(
+        "wing",
+        {{0.0F, 0.75F, -1.0F}, {0.0F, 0.75F, 1.0F}, {side, 0.0F, 1.25F}, {side, 0.0F, -1.0F}},
+        std::move(indices));
+}
+
+}  // namespace
 
 scene::Mesh mesh_of(std::string name, std::vector<glm::vec3> positions,
                     std::vector<std::uint32_t> indices) {
@@ -110,6 +123,19 @@ scene::Mesh joined(const scene::Mesh& a, const scene::Mesh& b) {
     positions.insert(positions.end(), b.positions.begin(), b.positions.end());
     for (const std::uint32_t i : b.indices) indices.push_back(base + i);
     return mesh_of(a.name + " and " + b.name, std::move(positions), std::move(indices));
+}
+
+scene::Mesh left_wing() { return wing(-1.0F, {0, 1, 2, 0, 2, 3}); }
+scene::Mesh right_wing() { return wing(1.0F, {2, 0, 3, 1, 0, 2}); }
+
+void lay_bricks(Stage& stage, double shift_m, bool drawn) {
+    const MeshPointer brick = shared(scene::make_box(glm::vec3(0.25F, 0.125F, 0.125F)));
+    for (int row = 0; row < 25; ++row) {
+        for (int column = 0; column < 40; ++column) {
+            const double x = -5.0 + 0.25 * column + (row % 2 == 0 ? 0.0 : shift_m);
+            stage.place(brick, moved({x, 0.0625 + 0.125 * row, 0.0}), true, drawn);
+        }
+    }
 }
 
 }  // namespace gnomon::test

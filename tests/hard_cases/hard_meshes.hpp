@@ -11,6 +11,8 @@
 
 #include <gnomon/scene/mesh.hpp>
 
+#include "tests/rows/stage.hpp"
+
 namespace gnomon::test {
 
 /// With smooth normals made from the faces; they are for pictures alone.
@@ -41,5 +43,14 @@ using ChooseFaces = std::function<void(std::size_t f, const std::uint32_t* corne
 
 /// The two meshes as one; their vertices are not shared.
 [[nodiscard]] scene::Mesh joined(const scene::Mesh& a, const scene::Mesh& b);
+
+/// Half of a roof, a sheet: both halves have the ridge, from (0, 0.75, -1) to (0, 0.75, 1), and
+/// list it in opposite order.
+[[nodiscard]] scene::Mesh left_wing();
+[[nodiscard]] scene::Mesh right_wing();
+
+/// A wall of 25 rows of 40 bricks, each a caster of its own, 10 m wide, 3.125 m high and 0.125 m
+/// thick about z = 0. Every other row begins `shift_m` farther to the right: 0.125 is half a brick.
+void lay_bricks(Stage& stage, double shift_m, bool drawn);
 
 }  // namespace gnomon::test

