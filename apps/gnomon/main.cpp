@@ -71,7 +71,8 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
         ->type_name("IMAGE.png");
     render
         ->add_option("--stencil", o.stencil_prefix,
-                     "Write raw stencil counts to PREFIX.light0.pgm, …")
+                     "Write raw stencil counts to PREFIX.light0.pgm, …; where a light's layers "
+                     "had to be split, 0 and 255")
         ->check(named)
         ->type_name("PREFIX");
     render->add_option("--stats", o.stats, "Write measurements here (JSON)")

@@ -15,7 +15,6 @@ namespace gnomon::shadows {
 namespace {
 
 using internal::GridPoint;
-using internal::Triangle;
 using internal::WindingGrid;
 
 constexpr double half_ulp = 0x1p-53;
@@ -121,47 +120,71 @@ std::optional<std::int64_t> bound_in_one_picture(const Placement& placement,
           0.5 * static_cast<double>(WindingGrid::slack) * extent)) {
         return std::nullopt;
     }
-    WindingGrid grid(cells_for(boundary.size()));
     const double border = 64.0;
     const double scale = (static_cast<double>(WindingGrid::width) - 2.0 * border) / extent;
     const auto to_grid = [&](const glm::dvec2& p) {
         return GridPoint(even((p.x - low.x) * scale + border),
                          even((p.y - low.y) * scale + border));
     };
-    for (std::size_t i = 0; i < boundary.size(); ++i) {
-        grid.add_edge(to_grid(points[2 * i]), to_grid(points[2 * i + 1]), boundary[i].count);
-    }
-    return grid.most(0);
+    const auto most_with = [&](std::int64_t cells) {
+        WindingGrid grid(cells);
+        for (std::size_t i = 0; i < boundary.size(); ++i) {
+            grid.add_edge(to_grid(points[2 * i]), to_grid(points[2 * i + 1]), boundary[i].count);
+        }
+        return grid.most(0);
+    };
+    // A finer grid costs less than a volume that is split for nothing.
+    constexpr std::int64_t many = 127;
+    const std::int64_t cells = cells_for(boundary.size());
+    const std::int64_t most = most_with(cells);
+    return most <= many ? most : std::min(most, most_with(4 * cells));
 }
 
 // ---------------------------------------------------------------------------------------------
 // A light among the faces: six pictures, the sides of a cube about it. Each begins at a corner of
 // the cube, where the layers are counted face by face; all six share two corners.
 
-// Casting faces that a ray meets, or passes within `tolerance` radians.
-std::int64_t layers_along(const Placement& placement, std::span<const Triangle> casting,
-                          const glm::dvec3& ray, double tolerance) {
-    const glm::dvec3 r = glm::normalize(ray);
-    std::int64_t layers = 0;
-    for (const Triangle& face : casting) {
-        const std::array<glm::dvec3, 3> d{placement(face[0]), placement(face[1]),
-                                          placement(face[2])};
-        bool left = true;
-        bool right = true;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const glm::dvec3& a = d[i];
-            const glm::dvec3& b = d[(i + 1) % 3];
-            const glm::dvec3 n = glm::cross(a, b);
-            const double height = glm::dot(r, n);
-            const double room =
-                tolerance * glm::length(n) + 1e-12 * glm::length(a) * glm::length(b);
-            left = left && height >= -room;
-            right = right && height <= room;
+struct CornerLayers {
+    std::int64_t low = 0;   // towards (-1, -1, -1)
+    std::int64_t high = 0;  // towards (1, 1, 1)
+};
+
+// Casting faces that the two rays meet, or pass within 1e-5 rad: the pictures begin near the
+// corners, not on them.
+CornerLayers layers_at_corners(const Placement& placement, const internal::Caps& casting) {
+    constexpr double tolerance = 1e-5;
+    constexpr double rounding = 1e-12;
+    CornerLayers layers;
+    for (const auto& cap : casting) {
+        for (std::size_t f = 0; f + 2 < cap.size(); f += 3) {
+            std::array<glm::dvec3, 3> d;
+            std::array<double, 3> length2{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                d[i] = placement(cap[f + i] / 2);
+                length2[i] = glm::dot(d[i], d[i]);
+            }
+            // On which sides of the planes through the light and an edge (1, 1, 1) lies.
+            bool left = true;
+            bool right = true;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::size_t k = (i + 1) % 3;
+                const glm::dvec3 n = glm::cross(d[i], d[k]);
+                const double height = n.x + n.y + n.z;
+                const bool clear =
+                    height * height > 6.0 * (tolerance * tolerance * glm::dot(n, n) +
+                                             rounding * rounding * length2[i] * length2[k]);
+                left = left && (height >= 0.0 || !clear);
+                right = right && (height <= 0.0 || !clear);
+            }
+            if (!left && !right) continue;
+            // The face, or its mirror image behind the light.
+            const double side = glm::dot(d[0], glm::cross(d[1], d[2]));
+            const double doubt = rounding * std::sqrt(length2[0] * length2[1] * length2[2]);
+            const bool forwards = side >= -doubt;
+            const bool backwards = side <= doubt;
+            layers.high += (left && forwards) || (right && backwards) ? 1 : 0;
+            layers.low += (right && forwards) || (left && backwards) ? 1 : 0;
         }
-        // Either the face or its mirror image behind the light.
-        const double side = glm::dot(d[0], glm::cross(d[1], d[2]));
-        const double doubt = 1e-12 * glm::length(d[0]) * glm::length(d[1]) * glm::length(d[2]);
-        layers += (left && side >= -doubt) || (right && side <= doubt) ? 1 : 0;
     }
     return layers;
 }
@@ -187,7 +210,7 @@ bool clip(glm::dvec3& a, glm::dvec3& b, double limit) {
 }
 
 std::optional<std::int64_t> bound_all_round(const Placement& placement,
-                                            std::span<const Triangle> casting,
+                                            const internal::Caps& casting,
                                             std::span<const SilhouetteEdge> boundary) {
     // The pictures overlap a little, and edges reach a little beyond them.
     constexpr double side = 1.0 + 1e-6;
@@ -205,9 +228,7 @@ std::optional<std::int64_t> bound_all_round(const Placement& placement,
 
     std::int64_t result = 0;
     WindingGrid grid(cells_for(boundary.size() / 2));
-    const std::array<std::int64_t, 2> at_corner{
-        layers_along(placement, casting, glm::dvec3(-1.0), 1e-5),
-        layers_along(placement, casting, glm::dvec3(1.0), 1e-5)};
+    const CornerLayers at_corners = layers_at_corners(placement, casting);
     for (int face = 0; face < 6; ++face) {
         const int axis = face % 3;
         const double sign = face < 3 ? -1.0 : 1.0;  // of the side, and of the corner it begins at
@@ -225,7 +246,7 @@ std::optional<std::int64_t> bound_all_round(const Placement& placement,
             glm::dvec3 b = seen(points[2 * i + 1]);
             if (clip(a, b, reach)) grid.add_edge(to_grid(a), to_grid(b), boundary[i].count);
         }
-        result = std::max(result, grid.most(at_corner[face < 3 ? 0 : 1]));
+        result = std::max(result, grid.most(sign < 0.0 ? at_corners.low : at_corners.high));
     }
     return result;
 }
@@ -239,12 +260,13 @@ std::uint32_t quick_bound(std::uint64_t faces, std::uint64_t sides, bool from_ou
     return static_cast<std::uint32_t>(faces);
 }
 
-std::uint32_t bound_layers(const ShadowMesh& mesh, std::span<const Triangle> casting,
+std::uint32_t bound_layers(const ShadowMesh& mesh, const Caps& casting,
                            std::span<const SilhouetteEdge> boundary, const LayerSpace& space) {
     const Placement placement(mesh, space);
     std::uint64_t sides = 0;
     for (const SilhouetteEdge& edge : boundary) sides += static_cast<std::uint64_t>(edge.count);
-    const std::uint32_t quick = quick_bound(casting.size(), sides, seen_from_outside(mesh, space));
+    const std::uint32_t quick = quick_bound((casting[0].size() + casting[1].size()) / 3, sides,
+                                            seen_from_outside(mesh, space));
     if (quick <= 1) return quick;
 
     std::optional<std::int64_t> found;
@@ -292,14 +314,10 @@ std::uint32_t quick_layer_bound(const Volume& volume, bool from_outside) {
 }
 
 std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume, const LayerSpace& space) {
-    std::vector<Triangle> casting;
-    casting.reserve((volume.near_cap.count + volume.near_cap_flipped.count) / 3);
-    for (const IndexRange& range : {volume.near_cap, volume.near_cap_flipped}) {
-        for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
-            casting.push_back(
-                {volume.indices[i] / 2, volume.indices[i + 1] / 2, volume.indices[i + 2] / 2});
-        }
-    }
+    const std::span<const std::uint32_t> indices(volume.indices);
+    const auto cap = [&](const IndexRange& range) {
+        return indices.subspan(range.first, range.count);
+    };
     // Each side starts with the two near vertices of its edge, the later one first.
     std::vector<SilhouetteEdge> boundary;
     const IndexRange& sides = volume.sides;
@@ -315,7 +333,8 @@ std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume, const La
             boundary.push_back(edge);
         }
     }
-    return internal::bound_layers(mesh, casting, boundary, space);
+    return internal::bound_layers(mesh, {cap(volume.near_cap), cap(volume.near_cap_flipped)},
+                                  boundary, space);
 }
 
 }  // namespace gnomon::shadows

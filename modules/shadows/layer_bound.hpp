@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // How many layers of shadow one volume can lay over a point: what a stencil of eight bits has to
-// count. A bound from above, never below the truth; exact on most meshes. Where it exceeds what can
-// be counted, a volume is split into closed parts that do not (docs/conventions.md, "Wrap, never
-// clamp"). The ShadowSystem does all that by itself.
+// count. A bound from above, never below the truth. Where it exceeds what can be counted, a volume
+// is split into closed parts that do not (docs/conventions.md, "Wrap, never clamp"). The
+// ShadowSystem does all that by itself.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,8 @@ struct LayerSpace {
 /// rounding in single precision. Where the projection is too ill-conditioned for that, the number
 /// of casting faces is returned. `volume` as build_volume makes it, for a light at `space.light`.
 /// Cost: O(silhouette edges), and the casting faces where the mesh is not seen from outside;
-/// allocates a grid of at most 256 x 256 cells.
+/// allocates a grid of at most 256 x 256 cells, and one of 4 times as many a side where it finds
+/// more than 127 layers.
 [[nodiscard]] std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume,
                                         const LayerSpace& space);
 
@@ -53,8 +54,7 @@ struct LayerPart {
 /// one part, so the parts' counts add up to the volume's, at any point. Cut first between patches,
 /// the pieces that the silhouette divides the casting faces into: those cuts run along shadow edges
 /// that are there anyway. A patch that overlaps itself too often is cut by distance from the light.
-/// Parts are built for `far_vertices` as `volume` was. Cost: O(n log n) a doubling of the number of
-/// parts, n the casting faces, and O(faces of the mesh) a part.
+/// Parts are built for `far_vertices` as `volume` was. Cost: linear in the mesh for each part.
 [[nodiscard]] std::vector<LayerPart> split_volume(const ShadowMesh& mesh, const Volume& volume,
                                                   const LayerSpace& space, FarVertices far_vertices,
                                                   std::uint32_t limit);

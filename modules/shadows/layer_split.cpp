@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -14,8 +15,6 @@
 namespace gnomon::shadows {
 
 namespace {
-
-using internal::Triangle;
 
 // What a volume was built from.
 struct Source {
@@ -32,8 +31,8 @@ Source source_of(const ShadowMesh& mesh, const Volume& volume) {
     const auto walk = [&](const IndexRange& range, int step, const auto& visit) {
         std::size_t f = 0;
         for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
-            const Triangle cap{volume.indices[i] / 2, volume.indices[i + 1] / 2,
-                               volume.indices[i + 2] / 2};
+            const std::array cap{volume.indices[i] / 2, volume.indices[i + 1] / 2,
+                                 volume.indices[i + 2] / 2};
             while (faces[f] != cap) ++f;
             source.weights[f] = static_cast<std::int8_t>(source.weights[f] + step);
             visit(f);
@@ -95,11 +94,8 @@ public:
     }
 
 private:
-    [[nodiscard]] int sign_of(const CastingFace& f) const { return weights_[f.face] > 0 ? 1 : -1; }
     void order_faces();
     void split(std::size_t begin, std::size_t end);
-    void find_boundary(std::size_t begin, std::size_t end);
-    void emit(std::size_t begin, std::size_t end, std::uint32_t layers);
 
     const ShadowMesh& mesh_;
     const LayerSpace& space_;
@@ -110,6 +106,7 @@ private:
     std::vector<std::int8_t> part_weights_;
     std::vector<CastingFace> faces_;
     std::vector<SilhouetteEdge> boundary_;
+    std::vector<std::uint32_t> caps_;
     std::vector<LayerPart> parts_;
 };
 
@@ -148,44 +145,26 @@ void Splitter::order_faces() {
     });
 }
 
-// The signed sum over the faces' own edges, in the order of find_silhouette.
-void Splitter::find_boundary(std::size_t begin, std::size_t end) {
-    boundary_.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-        const Triangle& face = mesh_.faces()[faces_[i].face];
-        const std::int32_t weight = sign_of(faces_[i]);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = face[k];
-            const std::uint32_t b = face[(k + 1) % 3];
-            if (a != b)
-                boundary_.push_back({std::min(a, b), std::max(a, b), a < b ? weight : -weight});
-        }
-    }
-    std::sort(boundary_.begin(), boundary_.end());
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < boundary_.size();) {
-        SilhouetteEdge sum = boundary_[i];
-        for (++i;
-             i < boundary_.size() && boundary_[i].from == sum.from && boundary_[i].to == sum.to;
-             ++i) {
-            sum.count += boundary_[i].count;
-        }
-        if (sum.count < 0) sum = {sum.to, sum.from, -sum.count};
-        if (sum.count != 0) boundary_[kept++] = sum;
-    }
-    boundary_.resize(kept);
-}
-
 void Splitter::split(std::size_t begin, std::size_t end) {
-    find_boundary(begin, end);
-    std::vector<Triangle> casting;
-    casting.reserve(end - begin);
-    for (std::size_t i = begin; i < end; ++i) casting.push_back(mesh_.faces()[faces_[i].face]);
-    const std::uint32_t layers = internal::bound_layers(mesh_, casting, boundary_, space_);
-    if (layers <= limit_) {
-        emit(begin, end, layers);
-        return;
+    for (std::size_t i = begin; i < end; ++i) {
+        std::int8_t& weight = part_weights_[faces_[i].face];
+        weight = static_cast<std::int8_t>(weight + (weights_[faces_[i].face] > 0 ? 1 : -1));
     }
+    find_silhouette(mesh_, part_weights_, boundary_);
+    caps_.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+        for (const std::uint32_t v : mesh_.faces()[faces_[i].face]) caps_.push_back(2 * v);
+    }
+    const std::uint32_t layers =
+        internal::bound_layers(mesh_, {std::span(caps_), {}}, boundary_, space_);
+    if (layers <= limit_) {
+        LayerPart& part = parts_.emplace_back();
+        part.layers = layers;
+        build_volume(mesh_, part_weights_, boundary_, space_.light.w == 0.0, far_vertices_,
+                     part.volume, source_.solid_averted);
+    }
+    for (std::size_t i = begin; i < end; ++i) part_weights_[faces_[i].face] = 0;
+    if (layers <= limit_) return;
     // In so many parts as are needed at least, and so that no part is left with a few layers.
     const std::size_t parts = (layers + limit_ - 1) / limit_;
     std::size_t middle = begin + std::max<std::size_t>(1, (end - begin) * (parts / 2) / parts);
@@ -201,18 +180,6 @@ void Splitter::split(std::size_t begin, std::size_t end) {
     }
     split(begin, middle);
     split(middle, end);
-}
-
-void Splitter::emit(std::size_t begin, std::size_t end, std::uint32_t layers) {
-    for (std::size_t i = begin; i < end; ++i) {
-        std::int8_t& weight = part_weights_[faces_[i].face];
-        weight = static_cast<std::int8_t>(weight + sign_of(faces_[i]));
-    }
-    LayerPart& part = parts_.emplace_back();
-    part.layers = layers;
-    build_volume(mesh_, part_weights_, boundary_, space_.light.w == 0.0, far_vertices_, part.volume,
-                 source_.solid_averted);
-    for (std::size_t i = begin; i < end; ++i) part_weights_[faces_[i].face] = 0;
 }
 
 }  // namespace

@@ -34,12 +34,15 @@ shadows::View perspective_view() {
 
 struct World {
     std::shared_ptr<const shadows::ShadowMesh> mesh = tetrahedron();
-    shadows::ShadowSystem system = *shadows::ShadowSystem::create();
+    shadows::ShadowSystem system;
     double angle = 0.0;
     glm::dvec4 light{2.0, 4.0, 1.0, 1.0};
     int casters = 5;
     shadows::NearCaps near_caps = shadows::NearCaps::Facing;
     bool in_depth_buffer = true;
+
+    explicit World(const shadows::SystemOptions& options = {})
+        : system(*shadows::ShadowSystem::create(options)) {}
 
     shadows::DrawList frame(const shadows::View& view) {
         auto frame = system.begin_frame();
@@ -130,7 +133,11 @@ TEST(ShadowPass, records_one_draw_a_volume_and_as_many_as_it_says) {
 }
 
 // How many draws five casters take, all of them by depth-pass.
-std::uint64_t draws_of(World world, const ShadowPassDesc& desc) {
+std::uint64_t draws_of(const ShadowPassDesc& desc, bool in_depth_buffer = true,
+                       shadows::NearCaps near_caps = shadows::NearCaps::Facing) {
+    World world;
+    world.in_depth_buffer = in_depth_buffer;
+    world.near_caps = near_caps;
     gpu::Device device(gpu::create_null_backend());
     ShadowPass pass = *ShadowPass::create(device, desc);
     const shadows::View view = perspective_view();
@@ -143,16 +150,16 @@ std::uint64_t draws_of(World world, const ShadowPassDesc& desc) {
 
 TEST(ShadowPass, biased_caps_take_a_draw_of_their_own) {
     const ShadowPassDesc biased{.cap_bias = {.constant = 4}};
-    EXPECT_EQ(draws_of({}, biased), 5U) << "no caps, no bias";
-    EXPECT_EQ(draws_of({.in_depth_buffer = false}, {}), 5U);
-    EXPECT_EQ(draws_of({.in_depth_buffer = false}, biased), 10U);
+    EXPECT_EQ(draws_of(biased), 5U) << "no caps, no bias";
+    EXPECT_EQ(draws_of({}, false), 5U);
+    EXPECT_EQ(draws_of(biased, false), 10U);
 }
 
 TEST(ShadowPass, averted_caps_left_to_shading_are_drawn_by_depth_pass_as_well) {
     const ShadowPassDesc open{.averted_faces = AvertedFaces::LeftToShading};
-    EXPECT_EQ(draws_of({}, open), 5U) << "caps towards the light are never left to shading";
-    EXPECT_EQ(draws_of({.near_caps = shadows::NearCaps::Averted}, {}), 5U);
-    EXPECT_EQ(draws_of({.near_caps = shadows::NearCaps::Averted}, open), 10U);
+    EXPECT_EQ(draws_of(open), 5U) << "caps towards the light are never left to shading";
+    EXPECT_EQ(draws_of({}, true, shadows::NearCaps::Averted), 5U);
+    EXPECT_EQ(draws_of(open, true, shadows::NearCaps::Averted), 10U);
 }
 
 TEST(ShadowPass, refuses_a_cap_bias_towards_the_eye) {
@@ -163,6 +170,30 @@ TEST(ShadowPass, refuses_a_cap_bias_towards_the_eye) {
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
         EXPECT_NE(refused.error().message.find("cap bias"), std::string::npos);
     }
+}
+
+// Five in a row behind each other, of which two may be counted together.
+World split_world() {
+    World world({.max_layers = 2});
+    world.light = {1.0, 0.01, 0.01, 0.0};
+    return world;
+}
+
+TEST(ShadowPass, records_a_fold_a_batch_and_one_more) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world = split_world();
+    const shadows::View view = perspective_view();
+    const shadows::DrawList list = world.frame(view);
+    ASSERT_EQ(list.draws.size(), 5U);
+    ASSERT_EQ(list.lights[0].batches, 3U);
+    ASSERT_TRUE(pass.prepare(list, view));
+    EXPECT_EQ(recorded_draws(device, pass), 5U + 3U + 1U);
+    EXPECT_EQ(pass.stats().draw_calls, 5U + 3U + 1U);
+    // Not a draw more once nothing is split.
+    World whole;
+    ASSERT_TRUE(pass.prepare(whole.frame(view), view));
+    EXPECT_EQ(recorded_draws(device, pass), 5U);
 }
 
 TEST(ShadowPass, refuses_depth_fail_under_a_far_plane_without_unclipped_depth) {
@@ -184,14 +215,17 @@ TEST(ShadowPass, refuses_depth_fail_under_a_far_plane_without_unclipped_depth) {
 
 // Every fallible call of the device fails once: each failure comes back as a Result and nothing is
 // left behind.
-TEST(ShadowPass, survives_a_device_that_fails_anywhere) {
+class Survives : public testing::TestWithParam<bool> {};
+
+TEST_P(Survives, a_device_that_fails_anywhere) {
     const shadows::View view = perspective_view();
+    const auto make_world = [] { return GetParam() ? split_world() : World(); };
     bool succeeded = false;
     for (std::uint64_t fail_at = 1; !succeeded && fail_at < 200; ++fail_at) {
         gpu::FaultPlan plan{.fail_at = fail_at};
         gpu::Device device(gpu::create_fault_backend(gpu::create_null_backend(), plan));
         {
-            World world;
+            World world = make_world();
             // With every kind of pipeline there is.
             auto pass = ShadowPass::create(
                 device, {.averted_faces = AvertedFaces::LeftToShading, .cap_bias = {4, 1.0F}});
@@ -210,6 +244,10 @@ TEST(ShadowPass, survives_a_device_that_fails_anywhere) {
     }
     EXPECT_TRUE(succeeded);
 }
+
+INSTANTIATE_TEST_SUITE_P(ShadowPass, Survives, testing::Bool(), [](const auto& param) {
+    return std::string(param.param ? "split" : "whole");
+});
 
 }  // namespace
 }  // namespace gnomon::shadow_pass
