@@ -15,22 +15,14 @@
 
 namespace gnomon::test {
 
-using ExactVector = std::array<BigInteger, 3>;
-
-inline ExactVector exactly(const glm::dvec3& v) {
+inline BigVector exactly(const glm::dvec3& v) {
     return {BigInteger::of(v.x), BigInteger::of(v.y), BigInteger::of(v.z)};
 }
-inline ExactVector operator-(const ExactVector& a, const ExactVector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline ExactVector cross(const ExactVector& a, const ExactVector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline int sign_of_dot(const ExactVector& a, const ExactVector& b) {
+inline int sign_of_dot(const BigVector& a, const BigVector& b) {
     return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).sign();
 }
-inline ExactVector to_light(const glm::dvec4& light, const ExactVector& from) {
-    const ExactVector l = exactly(glm::dvec3(light));
+inline BigVector to_light(const glm::dvec4& light, const BigVector& from) {
+    const BigVector l = exactly(glm::dvec3(light));
     return light.w != 0.0 ? l - from : l;
 }
 
@@ -38,11 +30,11 @@ inline ExactVector to_light(const glm::dvec4& light, const ExactVector& from) {
 /// t^3).
 inline int oracle_side(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec4& light,
                        const glm::dvec3& x) {
-    const ExactVector from = exactly(x);
+    const BigVector from = exactly(x);
     const int side =
         sign_of_dot(cross(exactly(p) - from, exactly(q) - from), to_light(light, from));
     if (side != 0) return side;
-    const ExactVector normal = cross(exactly(q) - exactly(p), to_light(light, exactly(p)));
+    const BigVector normal = cross(exactly(q) - exactly(p), to_light(light, exactly(p)));
     for (const BigInteger& component : normal) {
         if (component.sign() != 0) return -component.sign();
     }
@@ -51,7 +43,7 @@ inline int oracle_side(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec
 
 /// The side of the face's plane on which a light or, as (x, y, z, 1), a point is.
 inline int oracle_facing(const std::array<glm::dvec3, 3>& face, const glm::dvec4& light) {
-    const ExactVector a = exactly(face[0]);
+    const BigVector a = exactly(face[0]);
     return sign_of_dot(cross(exactly(face[1]) - a, exactly(face[2]) - a), to_light(light, a));
 }
 
