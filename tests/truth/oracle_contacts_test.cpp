@@ -332,5 +332,32 @@ TEST(OracleContacts, GrazingLightIsNotJudged) {
     EXPECT_GT(judged(1e-3), 10000U);
 }
 
+TEST(OracleContacts, WhereDepthIsCoarserThanThePictureNothingIsSaidWrongly) {
+    // Through a long lens a pixel is narrower than the steps of depth: a caster that stands within
+    // them above its shadow leaves the shadow undecided, not lit.
+    const std::vector<Shape> shapes{ground(20.0F),
+                                    {scene::make_torus(1.0F, 0.4F, 48, 24), at(0.0, 1.5, 0.0)}};
+    const BruteForce brute_force(shapes);
+    for (const double distance : {1e4, 1e5, 1e6}) {
+        Pinhole camera;
+        camera.eye = distance * glm::normalize(glm::dvec3(0.0, 2.0, 5.0));
+        camera.fovy_rad = 2.0 * std::atan(3.0 / distance);
+        camera.near_m = 0.25 * distance;
+        camera.width = 80;
+        camera.height = 60;
+        for (const double elevation : {1.0, 0.1}) {
+            const shadows::Light light = sun({0.6, elevation, 0.5});
+            const Picture picture =
+                picture_of(shapes, camera.view(), light, camera.options(), camera.eye);
+            if (distance < 1e5) expect_telling(picture, 0.06);
+            std::size_t wrong = 0;
+            each_judged(camera, picture, [&](auto, auto, Verdict verdict, const Ray& ray) {
+                wrong += brute_force.verdict(ray, light) != verdict ? 1U : 0U;
+            });
+            EXPECT_EQ(wrong, 0U) << distance << " m away, elevation " << elevation;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gnomon::truth

@@ -139,7 +139,13 @@ PixelJudge::Answer PixelJudge::light_reaches(const Seen& seen, const Plane& base
     // A contact's depth may be off by contact_m either way; so may what it is compared with.
     const double low = 4.0 * seen.contact_m;
     Beam wide = light_beam(seen.region, light_, base, 2.0 * seen.contact_m);
-    const Beam narrow = light_beam(seen.region, light_, base, -0.01 * seen.contact_m);
+    // Never so narrow that nothing is left of the beam, which is as thick as the region seen from
+    // the light: what then touches the region would not be noticed.
+    const glm::dvec3 to_light = glm::dvec3(light_) - light_.w * seen.region.centroid();
+    const double thickness =
+        seen.region.thickness() * glm::dot(base.normal, to_light) / glm::length(to_light);
+    const double shrink = std::min(0.01 * seen.contact_m, 0.125 * thickness);
+    const Beam narrow = light_beam(seen.region, light_, base, -shrink);
     if (wide.side_count < 3) return Answer::Uncertain;
     wide.lowest = -low;
     if (light_.w != 0.0) wide.highest = base.at(glm::dvec3(light_)) * (1.0 - 1e-9);
