@@ -12,6 +12,7 @@
 
 #include "tests/rows/picture.hpp"
 #include "tests/rows/rows.hpp"
+#include "tests/support/devices.hpp"
 
 namespace gnomon::test {
 
@@ -27,9 +28,6 @@ struct HardCase {
     /// Otherwise at least 5 % of the judged pixels must be lit and 5 % in shadow: a case that is
     /// all light proves nothing. The reason why it cannot be so here.
     std::string one_sided_because = {};
-    /// A limit that is known and explained: pixels outside the band are wrong, on every device. The
-    /// case fails when none is any more.
-    std::string fails_because = {};
     /// The band's share of the pixels may be so high, where the scene is made of edges.
     double most_band = 0.10;
 };
@@ -50,6 +48,11 @@ void add_by_both(std::vector<HardCase>& cases, HardCase hard_case);
 [[nodiscard]] std::vector<HardCase> camera_cases();      ///< from where it may be seen
 [[nodiscard]] std::vector<HardCase> pose_cases();        ///< where things may stand, and how askew
 [[nodiscard]] std::vector<HardCase> layer_cases();       ///< how many volumes may lie over a pixel
+
+/// Google's rasteriser, to which other limits apply (docs/hard-cases.md).
+[[nodiscard]] inline bool on_swiftshader(const TestDevice& device) {
+    return device.device.caps().adapter.find("SwiftShader") != std::string::npos;
+}
 
 inline void PrintTo(const HardCase& hard_case, std::ostream* out) { *out << hard_case.name; }
 
