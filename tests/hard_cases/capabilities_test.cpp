@@ -10,14 +10,13 @@
 #include <tuple>
 
 #include <gnomon/scene/primitives.hpp>
-#include <gnomon/scene/shadow_adapter.hpp>
-#include <gnomon/truth/truth.hpp>
 
 #include "tests/hard_cases/hard_case.hpp"
 #include "tests/rows/picture.hpp"
 #include "tests/rows/rows.hpp"
 #include "tests/rows/stage.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/truth/traced.hpp"
 
 #if GNOMON_HAS_GL
 #include <gnomon/gl/backend.hpp>
@@ -125,18 +124,13 @@ protected:
     }
 
     static void expect_truth(const Setting& setting, const Picture& picture) {
-        const glm::dvec3 eye(glm::inverse(setting.view.view_from_world)[3]);
-        const truth::Tracer tracer =
-            must(truth::Tracer::build(truth::instances_of(setting.scene), eye));
-        for (std::size_t i = 0; i < picture.list.lights.size(); ++i) {
-            const auto light = scene::shadow_light(
-                setting.scene.registry, scene::Entity::from_key(picture.list.lights[i].light));
-            const truth::Judgement judgement = truth::judge(
-                tracer.trace(setting.view, *light, {.width = row_width, .height = row_height}),
-                picture.masks[i][0]);
+        const Traced traced = trace_lights(setting);
+        for (std::size_t light = 0; light < traced.size(); ++light) {
+            const truth::Judgement judgement =
+                truth::judge(traced[light][0], picture.masks[light][0]);
             EXPECT_GT(judgement.shadowed, 0U);
             EXPECT_GT(judgement.lit, 0U);
-            EXPECT_EQ(judgement.wrong(), 0U) << "light " << i;
+            EXPECT_EQ(judgement.wrong(), 0U) << "light " << light;
         }
     }
 

@@ -6,13 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <gnomon/scene/primitives.hpp>
-#include <gnomon/scene/shadow_adapter.hpp>
-#include <gnomon/truth/truth.hpp>
 
 #include "tests/hard_cases/hard_meshes.hpp"
 #include "tests/rows/picture.hpp"
 #include "tests/rows/stage.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/truth/traced.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -59,16 +58,11 @@ protected:
         s.lamp(lamp);
         s.look({0.5, 4.0, 6.5}, {0.0, 0.9, 0.0});
         const Setting setting = s.finish();
-        const glm::dvec3 eye(glm::inverse(setting.view.view_from_world)[3]);
-        const auto tracer = must(truth::Tracer::build(truth::instances_of(setting.scene), eye));
+        const Traced traced = trace_lights(setting);
         const auto wrong = [&](PictureOptions options) {
             options.technique = shadows::Technique::DepthFail;
-            const Picture picture = must(take_picture(device(), setting, options));
-            const auto light = scene::shadow_light(
-                setting.scene.registry, scene::Entity::from_key(picture.list.lights[0].light));
-            const auto traced = tracer.trace(setting.view, *light,
-                                             {.width = options.width, .height = options.height});
-            return truth::judge(traced, picture.masks[0][0]).wrong();
+            return judge_lights(traced, must(take_picture(device(), setting, options)).masks)
+                .wrong();
         };
         return {wrong({}), wrong({.mutate = cap_with_a_fan})};
     }

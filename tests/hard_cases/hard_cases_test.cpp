@@ -5,48 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include <gnomon/scene/shadow_adapter.hpp>
-#include <gnomon/truth/truth.hpp>
-
 #include "tests/hard_cases/hard_case.hpp"
 #include "tests/hard_cases/known_limits.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/truth/traced.hpp"
 
 namespace gnomon::test {
 namespace {
-
-// The standard places of four samples (WebGPU and Vulkan agree).
-constexpr std::array<glm::dvec2, 4> places_of_four{
-    {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
-
-// What a pixel's truth is, light by light and sample by sample.
-using Truths = std::vector<std::vector<truth::Picture>>;
-
-Truths trace(const Setting& setting, const shadows::DrawList& list, const PictureOptions& options,
-             double band_px) {
-    const glm::dvec3 eye(glm::inverse(setting.view.view_from_world)[3]);
-    const truth::Tracer tracer =
-        must(truth::Tracer::build(truth::instances_of(setting.scene), eye));
-    Truths truths;
-    for (const shadows::LightDraws& drawn : list.lights) {
-        const auto light =
-            scene::shadow_light(setting.scene.registry, scene::Entity::from_key(drawn.light));
-        truths.emplace_back();
-        for (std::uint32_t sample = 0; sample < options.samples; ++sample) {
-            truth::Options traced{
-                .width = options.width, .height = options.height, .band_px = band_px};
-            if (options.samples == 4) traced.sample_position = places_of_four[sample];
-            truths.back().push_back(tracer.trace(setting.view, *light, traced));
-        }
-    }
-    return truths;
-}
 
 // SwiftShader puts vertices on a grid of 1/16 pixel (Mesa: 1/256), so that an edge moves by up to
 // sqrt(2)/32 pixel; the receiver's edge and the volume's may do so in opposite ways: 0.088 pixel.
@@ -56,15 +26,6 @@ bool has(const TestDevice& device, gpu::Format depth_stencil) {
     const gpu::Features& features = device.device.caps().features;
     return depth_stencil == gpu::Format::Depth24UnormStencil8 ? features.depth24unorm_stencil8
                                                               : features.depth32float_stencil8;
-}
-
-std::string places(const truth::Judgement& judgement, std::uint32_t width) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min<std::size_t>(judgement.wrong_pixels.size(), 8); ++i) {
-        const std::uint32_t at = judgement.wrong_pixels[i];
-        text += fmt::format(" ({}, {})", at % width, at / width);
-    }
-    return text;
 }
 
 class HardCases : public testing::TestWithParam<HardCase> {};
@@ -97,13 +58,13 @@ std::vector<Result> devices_for(const HardCase& hard_case) {
 
 // Adds one frame to what the device made of the case.
 void judge(Result& result, const HardCase& hard_case, const Picture& picture,
-           const Picture& reference, const Truths& truths) {
-    ASSERT_EQ(picture.masks.size(), truths.size());
-    for (std::size_t light = 0; light < truths.size(); ++light) {
-        for (std::size_t sample = 0; sample < truths[light].size(); ++sample) {
+           const Picture& reference, const Traced& traced) {
+    ASSERT_EQ(picture.masks.size(), traced.size());
+    for (std::size_t light = 0; light < traced.size(); ++light) {
+        for (std::size_t sample = 0; sample < traced[light].size(); ++sample) {
             const auto& mask = picture.masks[light][sample];
             const auto& expected = reference.masks[light][sample];
-            result.judgement += truth::judge(truths[light][sample], mask);
+            result.judgement += truth::judge(traced[light][sample], mask);
             const std::size_t differ = differing_bytes(mask, expected);
             result.differing += differ;
             if (differ == 0 || result.limit != nullptr) continue;
@@ -118,7 +79,7 @@ void judge(Result& result, const HardCase& hard_case, const Picture& picture,
         EXPECT_EQ(result.judgement.wrong(), 0U)
             << result.name << ": " << result.judgement.false_shadow << " falsely dark, "
             << result.judgement.false_light
-            << " falsely lit:" << places(result.judgement, hard_case.options.width);
+            << " falsely lit:" << wrong_places(result.judgement, hard_case.options.width);
     }
 }
 
@@ -133,14 +94,17 @@ TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
         SCOPED_TRACE(fmt::format("frame {}", frame));
         const Setting setting = hard_case.make(frame);
         const Picture reference = must(take_picture(results[0].device->device, setting, options));
-        const Truths truths =
-            trace(setting, reference.list, options,
-                  swiftshader ? band_px_on_swiftshader : truth::Options{}.band_px);
-        judge(results[0], hard_case, reference, reference, truths);
+        const Traced traced = trace_lights(
+            setting,
+            {.width = options.width,
+             .height = options.height,
+             .band_px = swiftshader ? band_px_on_swiftshader : truth::Options{}.band_px},
+            options.samples);
+        judge(results[0], hard_case, reference, reference, traced);
         for (std::size_t d = 1; d < results.size(); ++d) {
             judge(results[d], hard_case,
                   must(take_picture(results[d].device->device, setting, options)), reference,
-                  truths);
+                  traced);
         }
     }
 

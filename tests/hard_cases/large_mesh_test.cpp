@@ -7,12 +7,11 @@
 #include <optional>
 
 #include <gnomon/scene/primitives.hpp>
-#include <gnomon/scene/shadow_adapter.hpp>
-#include <gnomon/truth/truth.hpp>
 
 #include "tests/rows/picture.hpp"
 #include "tests/rows/stage.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/truth/traced.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -27,7 +26,7 @@ TEST(LargeMesh, of_four_million_triangles_casts_its_shadow) {
     s.look({0.0, 3.2, 4.6}, {0.0, 0.6, 0.0});
     const Setting setting = s.finish();
 
-    std::optional<truth::Picture> traced;
+    std::optional<Traced> traced;
     std::vector<std::uint8_t> reference;
     for (const DeviceCase& device_case : drawing_devices()) {
         SCOPED_TRACE(device_case.name);
@@ -39,14 +38,10 @@ TEST(LargeMesh, of_four_million_triangles_casts_its_shadow) {
         const Picture picture = must(take_picture((*device)->device, setting, {}));
         const auto& mask = picture.masks[0][0];
         if (!traced) {
-            const auto light = scene::shadow_light(
-                setting.scene.registry, scene::Entity::from_key(picture.list.lights[0].light));
-            const glm::dvec3 eye(glm::inverse(setting.view.view_from_world)[3]);
-            traced = must(truth::Tracer::build(truth::instances_of(setting.scene), eye))
-                         .trace(setting.view, *light, {.width = row_width, .height = row_height});
+            traced = trace_lights(setting);
             reference = mask;
         }
-        const truth::Judgement judgement = truth::judge(*traced, mask);
+        const truth::Judgement judgement = judge_lights(*traced, picture.masks);
         EXPECT_EQ(judgement.wrong(), 0U);
         EXPECT_GT(judgement.shadowed, judgement.judged() / 20);
         const std::size_t differ = differing_bytes(mask, reference);

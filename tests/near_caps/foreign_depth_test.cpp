@@ -8,12 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <span>
 
 #include "tests/near_caps/host.hpp"
-#include "tests/near_caps/judged.hpp"
 #include "tests/near_caps/scenes.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/truth/traced.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -41,8 +40,7 @@ protected:
         bool all_averted = false;
     };
     // Draws with both kinds of caps, and says so.
-    static std::array<Outcome, 2> draw(const Setting& setting,
-                                       std::span<const truth::Picture> truth,
+    static std::array<Outcome, 2> draw(const Setting& setting, const Traced& truth,
                                        const HostOptions& options, const char* what) {
         std::array<Outcome, 2> outcomes;
         for (const NearCaps caps : {NearCaps::Facing, NearCaps::Averted}) {
@@ -121,8 +119,8 @@ TEST(ForeignDepthShading, AvertedFacesAreLeftToShadingInAnyDepthBuffer) {
     const auto differing = [&](const std::vector<std::vector<std::uint8_t>>& actual) {
         std::size_t count = 0;
         for (std::size_t light = 0; light < truth.size(); ++light) {
-            for (std::size_t i = 0; i < truth[light].verdicts.size(); ++i) {
-                if (truth[light].verdicts[i] == truth::Verdict::Band) continue;
+            for (std::size_t i = 0; i < truth[light][0].verdicts.size(); ++i) {
+                if (truth[light][0].verdicts[i] == truth::Verdict::Band) continue;
                 count += (actual[light][i] == 0) != (expected[light][i] == 0) ? 1 : 0;
             }
         }

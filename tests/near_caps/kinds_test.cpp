@@ -7,10 +7,10 @@
 #include <cstdio>
 
 #include "tests/near_caps/host.hpp"
-#include "tests/near_caps/judged.hpp"
 #include "tests/near_caps/scenes.hpp"
 #include "tests/rows/picture.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/truth/traced.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -49,11 +49,11 @@ TEST_P(NearCapKinds, give_the_same_counts_on_every_judged_pixel) {
             std::size_t judged_differ = 0;
             std::size_t opened = 0;
             for (std::size_t light = 0; light < truth.size(); ++light) {
-                for (std::size_t i = 0; i < truth[light].verdicts.size(); ++i) {
+                for (std::size_t i = 0; i < truth[light][0].verdicts.size(); ++i) {
                     const auto f = facing.masks[light][0][i];
                     const auto a = averted.masks[light][0][i];
                     const auto o = open.masks[light][0][i];
-                    const Verdict verdict = truth[light].verdicts[i];
+                    const Verdict verdict = truth[light][0].verdicts[i];
                     const bool judged = verdict == Verdict::Lit || verdict == Verdict::Shadowed;
                     differ += f != a ? 1 : 0;
                     judged_differ += judged && (f != a || f != o) ? 1 : 0;
@@ -65,9 +65,7 @@ TEST_P(NearCapKinds, give_the_same_counts_on_every_judged_pixel) {
                         technique ? "fail" : "auto", differ, judged_differ, opened);
             EXPECT_EQ(judged_differ, 0U) << device_case.name;
             for (const Picture* kind : {&averted, &open}) {
-                std::vector<std::vector<std::uint8_t>> masks;
-                for (const auto& samples : kind->masks) masks.push_back(samples[0]);
-                EXPECT_EQ(judge_lights(truth, masks).wrong(), 0U) << device_case.name;
+                EXPECT_EQ(judge_lights(truth, kind->masks).wrong(), 0U) << device_case.name;
             }
         }
     }

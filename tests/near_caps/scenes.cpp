@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "tests/near_caps/scenes.hpp"
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
 #include <gnomon/scene/primitives.hpp>
+#include <gnomon/scene/shadow_adapter.hpp>
 #include <gnomon/scene/transforms.hpp>
+
+#include "tests/support/devices.hpp"
 
 namespace gnomon::test {
 
@@ -63,6 +67,24 @@ Setting undrawn_sheet_above_a_floor(double gap_m) {
     place(scene, scene::make_plane(1.0F, 1.0F), {0.0, gap_m, 0.0}, false);
     shine(scene, {-0.1, -1.0, 0.2});
     return seen_from(std::move(scene), {0.0, 5.0, 0.0}, 0.5, {0.0, 0.0, -1.0});
+}
+
+Setting only_solids_cast(Setting setting) {
+    scene::ShadowAdapter adapter;
+    std::vector<scene::Entity> others;
+    setting.scene.registry.each<scene::Caster, scene::MeshInstance, scene::WorldTransform>(
+        [&](scene::Entity entity, const scene::Caster&, const scene::MeshInstance& instance,
+            const scene::WorldTransform& transform) {
+            const auto mesh = must(adapter.shadow_mesh(instance.mesh));
+            bool solid = mesh->report().closed() &&
+                         std::abs(glm::determinant(glm::dmat3(transform.world_from_local))) > 0.0;
+            for (const auto& component : mesh->components()) {
+                solid = solid && !component.inside_out;
+            }
+            if (!solid) others.push_back(entity);
+        });
+    for (const scene::Entity entity : others) setting.scene.registry.remove<scene::Caster>(entity);
+    return setting;
 }
 
 }  // namespace gnomon::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Settings that the rows do not have: a smooth sphere of few triangles, an eye within a solid, a
-// caster close above its receiver.
+// caster close above its receiver, solids alone.
 #pragma once
 
 #include <cstdint>
@@ -22,5 +22,9 @@ namespace gnomon::test {
 /// An undrawn open sheet, `gap_m` above a floor, seen straight from above, 5 m away, with a near
 /// plane at 0.01 m.
 [[nodiscard]] Setting undrawn_sheet_above_a_floor(double gap_m);
+
+/// The setting without the casters that two-sided casting is for: open and inconsistent meshes, and
+/// poses that flatten. They are still drawn.
+[[nodiscard]] Setting only_solids_cast(Setting setting);
 
 }  // namespace gnomon::test

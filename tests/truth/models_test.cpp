@@ -15,14 +15,13 @@
 
 #include <gnomon/render/camera.hpp>
 #include <gnomon/scene/gltf.hpp>
-#include <gnomon/scene/shadow_adapter.hpp>
 #include <gnomon/scene/transforms.hpp>
-#include <gnomon/truth/truth.hpp>
 
 #include "tests/rows/picture.hpp"
 #include "tests/rows/rows.hpp"
 #include "tests/support/devices.hpp"
 #include "tests/support/models.hpp"
+#include "tests/truth/traced.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -131,20 +130,11 @@ void judge_model(const std::filesystem::path& file) {
         unequal += here;
     }
 
-    const glm::dvec3 eye(glm::inverse(setting.view.view_from_world)[3]);
-    const truth::Tracer tracer =
-        must(truth::Tracer::build(truth::instances_of(setting.scene), eye));
-    truth::Judgement total;
-    for (std::size_t i = 0; i < reference.picture.list.lights.size(); ++i) {
-        const std::uint64_t key = reference.picture.list.lights[i].light;
-        const scene::Entity entity{static_cast<std::uint32_t>(key),
-                                   static_cast<std::uint32_t>(key >> 32U)};
-        const shadows::Light light = *scene::shadow_light(setting.scene.registry, entity);
-        const truth::Picture truth_picture =
-            tracer.trace(setting.view, light, {.width = width, .height = height});
-        total += truth::judge(truth_picture, reference.picture.masks[i][0]);
-        for (const Picture& other : different) {
-            EXPECT_LE(truth::judge(truth_picture, other.masks[i][0]).wrong(), 1U) << "light " << i;
+    const Traced traced = trace_lights(setting, {.width = width, .height = height});
+    const truth::Judgement total = judge_lights(traced, reference.picture.masks);
+    for (const Picture& other : different) {
+        for (std::size_t i = 0; i < traced.size(); ++i) {
+            EXPECT_LE(truth::judge(traced[i][0], other.masks[i][0]).wrong(), 1U) << "light " << i;
         }
     }
     fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {}+{} | {}+{} | {:.5f} | {:.2f} |\n",

@@ -7,47 +7,16 @@
 
 #include <cstdio>
 
-#include <gnomon/scene/shadow_adapter.hpp>
 #include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/silhouette.hpp>
-#include <gnomon/truth/truth.hpp>
 
 #include "tests/rows/picture.hpp"
 #include "tests/rows/rows.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/truth/traced.hpp"
 
 namespace gnomon::test {
 namespace {
-
-shadows::Light light_of(const scene::Scene& scene, std::uint64_t key) {
-    const scene::Entity entity{static_cast<std::uint32_t>(key),
-                               static_cast<std::uint32_t>(key >> 32U)};
-    return *scene::shadow_light(scene.registry, entity);
-}
-
-truth::Judgement judge_all(const Setting& setting, const Picture& picture,
-                           const truth::Options& options, std::size_t sample = 0) {
-    const auto instances = truth::instances_of(setting.scene);
-    const glm::dvec3 eye(glm::inverse(setting.view.view_from_world)[3]);
-    const truth::Tracer tracer = must(truth::Tracer::build(instances, eye));
-    truth::Judgement total;
-    for (std::size_t i = 0; i < picture.list.lights.size(); ++i) {
-        const shadows::Light light = light_of(setting.scene, picture.list.lights[i].light);
-        total += truth::judge(tracer.trace(setting.view, light, options), picture.masks[i][sample]);
-    }
-    return total;
-}
-
-std::string places(const truth::Judgement& judgement) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min<std::size_t>(judgement.wrong_pixels.size(), 8); ++i) {
-        const std::uint32_t at = judgement.wrong_pixels[i];
-        text += " (" + std::to_string(at % row_width) + ", " + std::to_string(at / row_width) + ")";
-    }
-    return text;
-}
-
-constexpr truth::Options row_options{.width = row_width, .height = row_height};
 
 DeviceCase drawing_device() { return drawing_devices().front(); }
 
@@ -58,7 +27,7 @@ TEST_P(Truth, no_pixel_is_wrong_outside_the_band) {
     const Setting setting = GetParam().make();
     const Picture picture = must(
         take_picture(device->device, setting, {.cull_back_faces = GetParam().cull_back_faces}));
-    const truth::Judgement judgement = judge_all(setting, picture, row_options);
+    const truth::Judgement judgement = judge_lights(trace_lights(setting), picture.masks);
     const double judged = static_cast<double>(judgement.judged());
     std::printf(
         "%-40s judged %8.0f, shadowed %5.1f %%, band %5.2f %%, false shadow %llu, false light "
@@ -69,8 +38,8 @@ TEST_P(Truth, no_pixel_is_wrong_outside_the_band) {
         static_cast<unsigned long long>(judgement.false_shadow),
         static_cast<unsigned long long>(judgement.false_light),
         static_cast<unsigned long long>(judgement.wrong_at_all()), judgement.edge_displacement_px);
-    EXPECT_EQ(judgement.false_shadow, 0U) << places(judgement);
-    EXPECT_EQ(judgement.false_light, 0U) << places(judgement);
+    EXPECT_EQ(judgement.false_shadow, 0U) << wrong_places(judgement, row_width);
+    EXPECT_EQ(judgement.false_light, 0U) << wrong_places(judgement, row_width);
     // A row that is all light or all shadow proves nothing, and neither does one that is all band.
     EXPECT_GE(static_cast<double>(judgement.lit), 0.05 * judged);
     EXPECT_GE(static_cast<double>(judgement.shadowed), 0.05 * judged);
@@ -81,19 +50,14 @@ INSTANTIATE_TEST_SUITE_P(Rows, Truth, testing::ValuesIn(rows()),
                          [](const auto& param) { return param.param.name; });
 
 TEST(Truth, no_sample_is_wrong_outside_the_band) {
-    // The standard places of four samples (WebGPU and Vulkan agree).
-    constexpr std::array<glm::dvec2, 4> sample_places{
-        {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
     TestDevice* device = must(shared_device(drawing_device()));
     const Setting setting = rows()[0].make();
     const Picture picture = must(take_picture(device->device, setting, {.samples = 4}));
-    for (std::size_t sample = 0; sample < 4; ++sample) {
-        truth::Options options = row_options;
-        options.sample_position = sample_places[sample];
-        const truth::Judgement judgement = judge_all(setting, picture, options, sample);
-        EXPECT_GT(judgement.shadowed, 0U);
-        EXPECT_EQ(judgement.wrong(), 0U) << "sample " << sample << places(judgement);
-    }
+    const truth::Options options{.width = row_width, .height = row_height};
+    const truth::Judgement judgement =
+        judge_lights(trace_lights(setting, options, 4), picture.masks);
+    EXPECT_GT(judgement.shadowed, 0U);
+    EXPECT_EQ(judgement.wrong(), 0U) << wrong_places(judgement, row_width);
 }
 
 // Deliberate mistakes, each of which has been made by somebody. The row must be one that depth-fail
@@ -108,8 +72,8 @@ protected:
         const Setting setting = row.make();
         PictureOptions all_depth_fail = options;
         all_depth_fail.technique = shadows::Technique::DepthFail;
-        return judge_all(setting, must(take_picture(device->device, setting, all_depth_fail)),
-                         row_options);
+        return judge_lights(trace_lights(setting),
+                            must(take_picture(device->device, setting, all_depth_fail)).masks);
     }
 
     // Replaces every volume by a changed copy.
