@@ -84,6 +84,7 @@ std::string as_json(const Inspection& inspection) {
                           {"alpha_tested", inspected.alpha_tested},
                           {"components_by_kind", kinds},
                           {"cost", json_of(inspected.cost.mesh)},
+                          {"most_layers", inspected.cost.most_layers},
                           {"component_list", components_of(inspected)}});
     }
     Json found = Json::array();

@@ -72,7 +72,8 @@ void append_row(std::string& text, std::string_view label, const shadows::Castin
                    figure(total.index_bytes(), cost.largest_index_bytes));
 }
 
-void append_cost(std::string& text, const shadows::CasterCost& cost) {
+void append_cost(std::string& text, const shadows::MeshCost& mesh) {
+    const shadows::CasterCost& cost = mesh.mesh;
     fmt::format_to(std::back_inserter(text), "  {:<18}{:>20}{:>20}{:>20}{:>24}\n",
                    "volume of a light", "silhouette edges", "side quads", "cap triangles",
                    "index bytes");
@@ -80,6 +81,9 @@ void append_cost(std::string& text, const shadows::CasterCost& cost) {
     if (cost.as_it_casts.total != cost.two_sided.total) {
         append_row(text, "all two-sided", cost.two_sided);
     }
+    fmt::format_to(std::back_inserter(text), "  layers over a point: at most {}{}\n",
+                   mesh.most_layers,
+                   mesh.most_layers > 255 ? ", more than a stencil counts: drawn in batches" : "");
 }
 
 std::uint64_t offences(const Component& c) {
@@ -146,7 +150,7 @@ void append_mesh(std::string& text, const InspectedMesh& inspected) {
         r.degenerate_faces);
     append_components(text, inspected);
     if (inspected.alpha_tested) text += "  alpha-tested: its shadow is that of whole triangles\n";
-    if (r.components > 0) append_cost(text, inspected.cost.mesh);
+    if (r.components > 0) append_cost(text, inspected.cost);
 }
 
 }  // namespace

@@ -8,6 +8,9 @@
 #include <span>
 
 #include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/layer_bound.hpp>
+#include <gnomon/shadows/silhouette.hpp>
+#include <gnomon/shadows/volume.hpp>
 
 namespace gnomon::shadows {
 
@@ -80,14 +83,24 @@ MeshCost measure_cost(const ShadowMesh& mesh) {
         add(cost.mesh.*which, whole);
     };
 
+    std::vector<SilhouetteEdge> silhouette;
+    Volume volume;
+    const auto add_as_it_casts = [&](const Facing& facing, const glm::vec3& direction) {
+        add_all(facing.weights, &CasterCost::as_it_casts);
+        find_silhouette(mesh, facing.weights, silhouette);
+        build_volume(mesh, facing.weights, silhouette, true, FarVertices::AtInfinity, volume);
+        const LayerSpace space{.light = glm::dvec4(glm::dvec3(direction), 0.0)};
+        cost.most_layers = std::max(cost.most_layers, layer_bound(mesh, volume, space));
+    };
+
     const auto directions = sample_directions();
     Facing facing;
     Facing opposite;
     for (std::size_t i = 0; i < directions.size(); i += 2) {
         classify_faces(mesh, {glm::vec4(directions[i], 0.0F)}, facing);
         classify_faces(mesh, {glm::vec4(directions[i + 1], 0.0F)}, opposite);
-        add_all(facing.weights, &CasterCost::as_it_casts);
-        add_all(opposite.weights, &CasterCost::as_it_casts);
+        add_as_it_casts(facing, directions[i]);
+        add_as_it_casts(opposite, directions[i + 1]);
         // Where one side casts, the other side is what casts for the opposite light; so the two
         // together are two-sided. Where both do, the opposite light has every weight's opposite.
         for (std::size_t f = 0; f < facing.weights.size(); ++f) {

@@ -53,11 +53,14 @@ struct CasterCost {
 
 struct MeshCost {
     CasterCost mesh;
+    /// The largest layer_bound() (layer_bound.hpp) of its volumes, as it casts. More than 255 are
+    /// counted in batches.
+    std::uint32_t most_layers = 0;
     std::vector<CasterCost> components;  ///< in the order of ShadowMesh::components()
 };
 
-/// Exact, for these directions. Cost: sample_direction_count detections; some 0.1 us a triangle and
-/// direction.
+/// Exact, for these directions. Cost: sample_direction_count detections and volumes; some 0.1 us a
+/// triangle and direction.
 [[nodiscard]] MeshCost measure_cost(const ShadowMesh& mesh);
 
 }  // namespace gnomon::shadows

@@ -232,6 +232,7 @@ TEST_F(Inspect, costs_are_those_of_the_silhouettes) {
     const double mean = cost["as_it_casts"]["mean"]["silhouette_edges"];
     EXPECT_GT(mean, 3.0);
     EXPECT_LT(mean, 4.0);
+    EXPECT_EQ(mesh["most_layers"], 1);
     EXPECT_EQ(cost["two_sided"]["mean"]["cap_triangles"], 4);
     EXPECT_EQ(cost["two_sided"]["mean"]["side_quads"], 2.0 * mean);
     EXPECT_EQ(mesh["component_list"][0]["cost"], cost);

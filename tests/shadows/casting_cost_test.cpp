@@ -67,6 +67,19 @@ TEST(CastingCost, WhatCastsNothingCostsNothing) {
     EXPECT_EQ(flat.mesh.two_sided.total, VolumeSize{});
 }
 
+TEST(CastingCost, CountsTheLayersOfShellsWithinShells) {
+    EXPECT_EQ(measure_cost(*test::build({})).most_layers, 0U);
+    EXPECT_EQ(measure_cost(*test::build(test::box({0, 0, 0}, {1, 1, 1}))).most_layers, 1U);
+    test::Triangles shells;
+    for (int i = 0; i < 3; ++i) {
+        const float size = 3.0F - static_cast<float>(i);
+        shells = test::merged(shells, test::box(glm::vec3(-size), glm::vec3(size)));
+    }
+    const std::uint32_t layers = measure_cost(*test::build(shells)).most_layers;
+    EXPECT_GE(layers, 3U);
+    EXPECT_LE(layers, 4U) << "the bound is off by one at most on nested shells";
+}
+
 // Against the volumes themselves, with two-sided weights decided face by face.
 TEST(CastingCost, IsThatOfTheVolumesThatAreBuilt) {
     GNOMON_RANDOM(random);
