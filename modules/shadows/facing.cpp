@@ -13,6 +13,7 @@
 
 #include "internal/face_filter.hpp"
 #include "internal/face_plane.hpp"
+#include "internal/finite.hpp"
 #include "internal/flattened_facing.hpp"
 
 namespace gnomon::shadows {
@@ -133,10 +134,6 @@ void weigh(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps, Facing&
     }
 }
 
-bool is_finite(const glm::vec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 }  // namespace
 
 void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out, NearCaps near_caps,
@@ -144,7 +141,7 @@ void classify_faces(const ShadowMesh& mesh, LightLocal light, Facing& out, NearC
     const glm::vec3 l(light.position);
     out.stats = {};
     out.stats.faces = mesh.faces().size();
-    if (!is_finite(l)) {
+    if (!internal::is_finite(l)) {
         out.weights.assign(mesh.faces().size(), 0);
         out.solid_averted.assign(mesh.components().size(), 0);
         out.margin = 0.0;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "internal/finite.hpp"
+
 namespace gnomon::shadows::internal {
 
 namespace {
@@ -97,9 +99,8 @@ void append_footprints(const OrientedBounds& bounds, const glm::dvec4& light_wor
     double magnitude = light_world.w == 0.0 ? 0.0 : glm::length(light);
     for (const glm::dvec3& c : corners) magnitude = std::max(magnitude, glm::length(c));
     // A pose whose products overflow covers everything.
-    const bool finite = std::all_of(corners.begin(), corners.end(), [](const glm::dvec3& c) {
-        return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
-    });
+    const bool finite = std::all_of(corners.begin(), corners.end(),
+                                    [](const glm::dvec3& c) { return is_finite(c); });
     if (!finite || !std::isfinite(magnitude)) {
         constexpr double most = std::numeric_limits<double>::max();
         for (std::uint32_t picture = 0; picture < (light_world.w == 0.0 ? 1U : 6U); ++picture) {

@@ -11,6 +11,7 @@
 
 #include "internal/caster_space.hpp"
 #include "internal/crossing.hpp"
+#include "internal/finite.hpp"
 #include "internal/light_fan.hpp"
 
 namespace gnomon::shadows {
@@ -19,15 +20,11 @@ using internal::Box;
 using internal::CasterSpace;
 using internal::Corners;
 using internal::Interval;
+using internal::is_finite;
 using internal::LightFan;
 using internal::Sight;
 
 namespace {
-
-bool finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-bool finite(const glm::dvec4& v) { return finite(glm::dvec3(v)) && std::isfinite(v.w); }
 
 // A caster, and what does not change while it keeps its pose.
 struct Entry {
@@ -267,7 +264,7 @@ bool ShadowQueries::State::each_caster(const QueryOptions& options, Enters&& ent
 template <class Visit>
 bool ShadowQueries::State::each_crossed(const Light& light, const glm::dvec3& point,
                                         const QueryOptions& options, Visit&& visit) const {
-    if (tree.empty() || !finite(light.position_world)) return false;
+    if (tree.empty() || !is_finite(light.position_world)) return false;
     const Sight in_world(point, light.position_world, slack(light, point));
     const auto enters = [&](const Box<double>& box) { return in_world.enters(box); };
     return each_caster(options, enters, [&](std::uint32_t entry) {
@@ -309,7 +306,7 @@ ShadowQueries::~ShadowQueries() = default;
 
 Exposure ShadowQueries::at(const Light& light, const glm::dvec3& point_world,
                            const QueryOptions& options) const {
-    GNOMON_EXPECTS(finite(point_world));
+    GNOMON_EXPECTS(is_finite(point_world));
     Blocker unknown;
     return state_->exposure(light, point_world, options, unknown);
 }
@@ -319,14 +316,14 @@ void ShadowQueries::at(const Light& light, std::span<const glm::dvec3> points_wo
     GNOMON_EXPECTS(points_world.size() == exposures.size());
     Blocker last;
     for (std::size_t i = 0; i < points_world.size(); ++i) {
-        GNOMON_EXPECTS(finite(points_world[i]));
+        GNOMON_EXPECTS(is_finite(points_world[i]));
         exposures[i] = state_->exposure(light, points_world[i], options, last);
     }
 }
 
 std::uint32_t ShadowQueries::surfaces_between(const Light& light, const glm::dvec3& point_world,
                                               const QueryOptions& options) const {
-    GNOMON_EXPECTS(finite(point_world));
+    GNOMON_EXPECTS(is_finite(point_world));
     std::uint32_t count = 0;
     state_->each_crossed(light, point_world, options, [&](std::uint32_t, std::uint32_t) {
         ++count;
@@ -342,7 +339,7 @@ std::uint32_t ShadowQueries::surfaces_between(const Light& light, const glm::dve
 void ShadowQueries::State::borders(const Light& light, const glm::dvec3& from, const glm::dvec3& to,
                                    const QueryOptions& options, std::vector<double>& at) const {
     at = {0.0, 1.0};
-    if (!tree.empty() && finite(light.position_world)) {
+    if (!tree.empty() && is_finite(light.position_world)) {
         std::vector<Interval> shadows;
         const double beside = std::max(slack(light, from), slack(light, to));
         const LightFan fan(from, to, light.position_world, beside);
@@ -370,7 +367,7 @@ void ShadowQueries::State::borders(const Light& light, const glm::dvec3& from, c
 void ShadowQueries::along(const Light& light, const glm::dvec3& from_world,
                           const glm::dvec3& to_world, std::vector<SegmentPiece>& pieces,
                           const QueryOptions& options) const {
-    GNOMON_EXPECTS(finite(from_world) && finite(to_world));
+    GNOMON_EXPECTS(is_finite(from_world) && is_finite(to_world));
     std::vector<double> borders;
     state_->borders(light, from_world, to_world, options, borders);
     pieces.clear();

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "internal/batches.hpp"
+#include "internal/finite.hpp"
 #include "internal/pair.hpp"
 
 namespace gnomon::shadows {
@@ -27,10 +28,6 @@ namespace {
 template <class T>
 bool same_bits(const T& a, const T& b) {
     return std::memcmp(&a, &b, sizeof(T)) == 0;
-}
-
-bool finite(const glm::dvec4& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
 OrientedBounds bounds_of(const CasterState& caster) {
@@ -153,7 +150,7 @@ void ShadowSystem::State::draw_pair(const CasterState& caster, const LightState&
                                     const View& view, FrameStats& stats) {
     ++stats.pairs;
     auto& of_light = pairs[light.light.key];
-    if (!caster.pose.finite || !finite(light.light.position_world) ||
+    if (!caster.pose.finite || !internal::is_finite(light.light.position_world) ||
         out_of_range(caster, light.light)) {
         of_light.erase(caster.caster.key);
         ++stats.pairs_culled;

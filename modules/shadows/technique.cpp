@@ -7,11 +7,13 @@
 #include <limits>
 #include <span>
 
+#include "internal/finite.hpp"
+
 namespace gnomon::shadows {
 
 namespace {
 
-struct Interval {
+struct Extent {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
     void include(double x) {
@@ -20,8 +22,8 @@ struct Interval {
     }
 };
 
-Interval project(std::span<const glm::dvec3> points, const glm::dvec3& axis) {
-    Interval interval;
+Extent project(std::span<const glm::dvec3> points, const glm::dvec3& axis) {
+    Extent interval;
     for (const glm::dvec3& p : points) interval.include(glm::dot(p, axis));
     return interval;
 }
@@ -71,9 +73,7 @@ bool depth_pass_is_valid(const OrientedBounds& bounds, const glm::dvec4& light_w
     const double slack = 1e-6 * reach;  // single-precision clip coordinates round this much
 
     // Comparisons with not-a-number would find anything separate.
-    const auto finite = [](const glm::dvec3& p) {
-        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    };
+    const auto finite = [](const glm::dvec3& p) { return internal::is_finite(p); };
     if (!std::all_of(hull.begin(), hull.begin() + hull_count, finite) ||
         !std::all_of(box.begin(), box.end(), finite) || !finite(light)) {
         return false;
@@ -83,8 +83,8 @@ bool depth_pass_is_valid(const OrientedBounds& bounds, const glm::dvec4& light_w
         const double length = glm::length(axis);
         if (!(length > 0.0)) return false;
         const glm::dvec3 n = axis / length;
-        const Interval a = project(std::span(hull.begin(), hull.begin() + hull_count), n);
-        const Interval b = project(box, n);
+        const Extent a = project(std::span(hull.begin(), hull.begin() + hull_count), n);
+        const Extent b = project(box, n);
         const double along = directional ? glm::dot(light, n) : 0.0;
         const double tiny = directional ? 1e-12 * glm::length(light) : 0.0;
         const double a_low = along < -tiny ? -std::numeric_limits<double>::infinity() : a.low;

@@ -12,7 +12,7 @@ namespace gnomon::shadows::internal {
 
 namespace {
 
-constexpr double rounding = 0x1p-48;  // of a few operations, relative to their operands
+constexpr double fan_rounding = 0x1p-48;  // of a few operations, relative to their operands
 
 double cross2(const glm::dvec3& a, const glm::dvec3& b, int u, int v) {
     return a[u] * b[v] - a[v] * b[u];
@@ -28,7 +28,7 @@ LightFan::LightFan(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec
       from_to_light_(glm::dvec3(light) - light.w * from),
       to_to_light_(glm::dvec3(light) - light.w * to),
       normal_(glm::cross(to - from, from_to_light_)),
-      normal_error_(rounding * glm::length(to - from) * glm::length(from_to_light_)),
+      normal_error_(fan_rounding * glm::length(to - from) * glm::length(from_to_light_)),
       slack_(slack) {
     const glm::dvec3 n = glm::abs(normal_);
     const int widest = n.x >= n.y && n.x >= n.z ? 0 : (n.y >= n.z ? 1 : 2);
@@ -36,8 +36,9 @@ LightFan::LightFan(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec
     v_ = (widest + 2) % 3;
     area_ = cross2(to_ - from_, from_to_light_, u_, v_);
     const auto side = [&](const glm::dvec3& through, const glm::dvec3& along) {
-        return Side{through, glm::cross(normal_, along),
-                    (2.0 * normal_error_ + rounding * glm::length(normal_)) * glm::length(along)};
+        return Side{
+            through, glm::cross(normal_, along),
+            (2.0 * normal_error_ + fan_rounding * glm::length(normal_)) * glm::length(along)};
     };
     sides_ = {side(from_, to_ - from_), side(to_, to_to_light_), side(from_, -from_to_light_)};
 }
@@ -49,13 +50,13 @@ bool LightFan::enters(const Box<double>& box) const {
     const glm::dvec3 spoke = center - from_;
     if (std::abs(glm::dot(normal_, spoke)) >
         glm::dot(glm::abs(normal_), half) +
-            (normal_error_ + rounding * glm::length(normal_)) * (glm::length(spoke) + size)) {
+            (normal_error_ + fan_rounding * glm::length(normal_)) * (glm::length(spoke) + size)) {
         return false;
     }
     return std::none_of(sides_.begin(), sides_.end(), [&](const Side& side) {
         const glm::dvec3 away = center - side.through;
         return glm::dot(side.inward, away) + glm::dot(glm::abs(side.inward), half) <
-               -(side.error + rounding * glm::length(side.inward)) * (glm::length(away) + size);
+               -(side.error + fan_rounding * glm::length(side.inward)) * (glm::length(away) + size);
     });
 }
 
