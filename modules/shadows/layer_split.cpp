@@ -3,13 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
 #include <gnomon/core/expects.hpp>
 #include <gnomon/shadows/layer_bound.hpp>
 
+#include "internal/disjoint_sets.hpp"
 #include "internal/layers.hpp"
 
 namespace gnomon::shadows {
@@ -46,26 +46,6 @@ Source source_of(const ShadowMesh& mesh, const Volume& volume) {
     walk(averted, -1, [&](std::size_t f) { source.solid_averted[mesh.face_components()[f]] = 1; });
     return source;
 }
-
-class Sets {
-public:
-    explicit Sets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
-    std::uint32_t find(std::uint32_t x) {
-        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-        return x;
-    }
-    // The smaller one stays the name of both.
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 // One unit of a face's weight.
 struct CastingFace {
@@ -111,7 +91,7 @@ private:
 };
 
 void Splitter::order_faces() {
-    Sets sets(weights_.size());
+    internal::DisjointSets sets(weights_.size());
     const auto uses = mesh_.uses();
     for (const Edge& edge : mesh_.edges()) {
         std::int32_t sum = 0;

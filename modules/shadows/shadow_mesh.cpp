@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <unordered_map>
 
 #include <gnomon/shadows/topology.hpp>
 
+#include "internal/disjoint_sets.hpp"
 #include "internal/face_plane.hpp"
 #include "internal/rounded_product.hpp"
 
@@ -38,29 +38,6 @@ struct PositionHash {
         for (const std::uint32_t word : x) h = (h ^ word) * 0xFF51AFD7ED558CCDULL, h ^= h >> 29U;
         return static_cast<std::size_t>(h);
     }
-};
-
-// Union-find over faces, for the components.
-class Groups {
-public:
-    explicit Groups(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
-    std::uint32_t find(std::uint32_t x) {
-        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-        return x;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        // The smaller index leads, so that components are numbered in the order of their first
-        // face.
-        if (a < b) parent_[b] = a;
-        if (b < a) parent_[a] = b;
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
 };
 
 // Six times the signed volume between a surface and a point, as the sum over its faces, with the
@@ -187,7 +164,7 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
 
     // Edges with their signed uses; components.
     const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh->faces_);
-    Groups groups(mesh->faces_.size());
+    internal::DisjointSets groups(mesh->faces_.size());
     mesh->uses_.reserve(half_edges.size());
     for (std::size_t begin = 0; begin < half_edges.size();) {
         const HalfEdge& edge = half_edges[begin];

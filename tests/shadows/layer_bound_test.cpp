@@ -34,13 +34,14 @@ void build_case_volume(Case& c, FarVertices far_vertices) {
     std::vector<SilhouetteEdge> silhouette;
     find_silhouette(*c.mesh, c.facing.weights, silhouette);
     build_volume(*c.mesh, c.facing.weights, silhouette, c.space.light.w == 0.0, far_vertices,
-                 c.volume);
+                 c.volume, c.facing.solid_averted);
 }
 
 Case make_case(std::shared_ptr<const ShadowMesh> mesh, LightLocal light,
-               FarVertices far_vertices = FarVertices::AtInfinity) {
+               FarVertices far_vertices = FarVertices::AtInfinity,
+               NearCaps near_caps = NearCaps::Facing) {
     Case c{std::move(mesh), {glm::dmat4(1.0), glm::dvec4(light.position)}, {}, {}};
-    classify_faces(*c.mesh, light, c.facing);
+    classify_faces(*c.mesh, light, c.facing, near_caps);
     build_case_volume(c, far_vertices);
     return c;
 }
@@ -229,30 +230,37 @@ void expect_parts_make_the_whole(const Case& c, FarVertices far_vertices, std::u
     FaceCounts whole;
     add_caps(c.volume, whole);
     FaceCounts together;
+    std::uint32_t averted = 0;
     for (const LayerPart& part : split_volume(*c.mesh, c.volume, c.space, far_vertices, limit)) {
         EXPECT_FALSE(part.volume.indices.empty());
         EXPECT_TRUE(is_closed(part.volume, one_far_point));
         EXPECT_LE(part.layers, limit);
         EXPECT_EQ(part.layers, layer_bound(*c.mesh, part.volume, c.space));
         add_caps(part.volume, together);
+        averted += part.volume.near_cap_averted.count;
     }
     EXPECT_EQ(together, whole);
+    EXPECT_EQ(averted, c.volume.near_cap_averted.count);
 }
 
 TEST(SplitVolume, PartsAreClosedAndMakeTheWhole) {
     GNOMON_RANDOM(random);
+    int averted = 0;
     for (int i = 0; i < 400; ++i) {
         const auto mesh =
             test::build(random.chance(0.5) ? test::random_mesh(random) : pile(random));
         const FarVertices far_vertices =
             random.chance(0.5) ? FarVertices::AtInfinity : FarVertices::Finite;
-        const Case c = make_case(mesh, test::random_light(random, *mesh), far_vertices);
+        const Case c = make_case(mesh, test::random_light(random, *mesh), far_vertices,
+                                 random.chance(0.5) ? NearCaps::Facing : NearCaps::Averted);
+        averted += c.volume.near_cap_averted.count > 0 ? 1 : 0;
         for (const std::uint32_t limit : {1U, 3U, 127U}) {
             SCOPED_TRACE(testing::Message() << "mesh " << i << " limit " << limit);
             expect_parts_make_the_whole(c, far_vertices, limit);
             if (HasFailure()) return;
         }
     }
+    EXPECT_GT(averted, 20);
 }
 
 TEST(SplitVolume, AVolumeWithinTheLimitIsOnePartAndTheSame) {
