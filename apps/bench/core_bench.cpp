@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/layer_bound.hpp>
 #include <gnomon/shadows/silhouette.hpp>
 #include <gnomon/shadows/volume.hpp>
 
@@ -80,6 +81,26 @@ void volume(benchmark::State& state) {
     per_triangle(state, *mesh);
 }
 
+void layer_bound(benchmark::State& state) {
+    const auto mesh = torus_knot(state.range(0));
+    const shadows::LightLocal light = light_at(1);
+    shadows::Facing facing;
+    shadows::classify_faces(*mesh, light, facing);
+    std::vector<shadows::SilhouetteEdge> silhouette;
+    shadows::find_silhouette(*mesh, facing.weights, silhouette);
+    shadows::Volume cast;
+    shadows::build_volume(*mesh, facing.weights, silhouette, light.is_directional(),
+                          shadows::FarVertices::AtInfinity, cast);
+    const shadows::LayerSpace space{.light = glm::dvec4(light.position)};
+    std::uint32_t layers = 0;
+    for (auto _ : state) {
+        layers = shadows::layer_bound(*mesh, cast, space);
+        benchmark::DoNotOptimize(layers);
+    }
+    state.counters["layers"] = layers;
+    per_triangle(state, *mesh);
+}
+
 BENCHMARK(build_mesh)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(classify, simd, shadows::FacingFilter::Simd)
     ->RangeMultiplier(10)
@@ -93,6 +114,7 @@ BENCHMARK(silhouette_brute_force)
     ->RangeMultiplier(10)
     ->Range(1000, 1000000)
     ->Unit(benchmark::kMicrosecond);
+BENCHMARK(layer_bound)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(volume)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
