@@ -54,8 +54,6 @@ soak: build/build.ninja build/asan-full/build.ninja build/tsan/build.ninja ## th
 	@JOBS=$(JOBS) scripts/fuzz 720
 
 bench: build ## run the benchmarks; their results also go to build/bench.json
-	@cmake -S . -B build -DGNOMON_BENCH=ON >/dev/null
-	@cmake --build build --target gnomon-bench
 	@build/bin/gnomon-bench --benchmark_out=build/bench.json --benchmark_out_format=json
 
 docs: ## the reference of all public headers and the guides, in build/docs/html

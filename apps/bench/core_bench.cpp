@@ -44,7 +44,7 @@ void classify(benchmark::State& state, shadows::FacingFilter filter) {
     shadows::Facing facing;
     std::int64_t step = 0;
     for (auto _ : state) {
-        shadows::classify_faces(*mesh, light_at(step++), facing, filter);
+        shadows::classify_faces(*mesh, light_at(step++), facing, shadows::NearCaps::Facing, filter);
         benchmark::DoNotOptimize(facing.weights.data());
     }
     per_triangle(state, *mesh);
