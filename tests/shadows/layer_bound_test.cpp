@@ -155,7 +155,7 @@ TEST(LayerBound, IsNeverBelowTheTruthUnderSingularPoses) {
     for (int i = 0; i < 600; ++i) {
         Case c{test::build(pile(random)), {}, {}, {}};
         glm::dmat4 pose(random.rotation());
-        pose[random.below(3)] *= 0.0;
+        pose[static_cast<glm::length_t>(random.below(3))] *= 0.0;
         c.space.space_from_local = glm::dmat4(glm::mat4(random.rotation())) * pose;
         c.space.light = glm::dvec4(random.in_cube(6.0), random.chance(0.3) ? 0.0 : 1.0);
         classify_faces_flattened(*c.mesh, c.space.space_from_local, c.space.light, c.facing);
