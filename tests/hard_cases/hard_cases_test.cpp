@@ -31,7 +31,7 @@ bool has(const TestDevice& device, gpu::Format depth_stencil) {
 class HardCases : public testing::TestWithParam<HardCase> {};
 
 // A device, and what it made of the case.
-struct Result {
+struct Outcome {
     TestDevice* device = nullptr;
     std::string name;
     const KnownLimit* limit = nullptr;
@@ -39,8 +39,8 @@ struct Result {
     std::uint64_t differing = 0;  // bytes, from the first device's
 };
 
-std::vector<Result> devices_for(const HardCase& hard_case) {
-    std::vector<Result> results;
+std::vector<Outcome> devices_for(const HardCase& hard_case) {
+    std::vector<Outcome> outcomes;
     for (const DeviceCase& device_case : drawing_devices()) {
         auto device = shared_device(device_case);
         if (!device) {
@@ -48,79 +48,80 @@ std::vector<Result> devices_for(const HardCase& hard_case) {
             continue;
         }
         if (!has(**device, hard_case.options.depth_stencil_format)) continue;
-        results.push_back(
+        outcomes.push_back(
             {*device, device_case.name,
              known_limit(hard_case.name, on_swiftshader(**device) ? std::string_view("SwiftShader")
                                                                   : device_case.name)});
     }
-    return results;
+    return outcomes;
 }
 
 // Adds one frame to what the device made of the case.
-void judge(Result& result, const HardCase& hard_case, const Picture& picture,
+void judge(Outcome& outcome, const HardCase& hard_case, const Picture& picture,
            const Picture& reference, const Traced& traced) {
     ASSERT_EQ(picture.masks.size(), traced.size());
     for (std::size_t light = 0; light < traced.size(); ++light) {
         for (std::size_t sample = 0; sample < traced[light].size(); ++sample) {
             const auto& mask = picture.masks[light][sample];
             const auto& expected = reference.masks[light][sample];
-            result.judgement += truth::judge(traced[light][sample], mask);
+            outcome.judgement += truth::judge(traced[light][sample], mask);
             const std::size_t differ = differing_bytes(mask, expected);
-            result.differing += differ;
-            if (differ == 0 || result.limit != nullptr) continue;
-            ADD_FAILURE() << result.name << ": " << differ << " bytes of light " << light
+            outcome.differing += differ;
+            if (differ == 0 || outcome.limit != nullptr) continue;
+            ADD_FAILURE() << outcome.name << ": " << differ << " bytes of light " << light
                           << " differ from the first device's; see "
-                          << save_difference(fmt::format("hard.{}.{}", hard_case.name, result.name),
-                                             hard_case.options.width, hard_case.options.height,
-                                             mask, expected);
+                          << save_difference(
+                                 fmt::format("hard.{}.{}", hard_case.name, outcome.name),
+                                 hard_case.options.width, hard_case.options.height, mask, expected);
         }
     }
-    if (result.limit == nullptr) {
-        EXPECT_EQ(result.judgement.wrong(), 0U)
-            << result.name << ": " << result.judgement.false_shadow << " falsely dark, "
-            << result.judgement.false_light
-            << " falsely lit:" << wrong_places(result.judgement, hard_case.options.width);
+    if (outcome.limit == nullptr) {
+        EXPECT_EQ(outcome.judgement.wrong(), 0U)
+            << outcome.name << ": " << outcome.judgement.false_shadow << " falsely dark, "
+            << outcome.judgement.false_light
+            << " falsely lit:" << wrong_places(outcome.judgement, hard_case.options.width);
     }
 }
 
 TEST_P(HardCases, no_pixel_is_wrong_outside_the_band) {
     const HardCase& hard_case = GetParam();
     const PictureOptions& options = hard_case.options;
-    std::vector<Result> results = devices_for(hard_case);
-    if (results.empty()) GTEST_SKIP() << "no device of this kind, or none with this format";
-    const bool swiftshader = on_swiftshader(*results[0].device);  // it is never among others
+    std::vector<Outcome> outcomes = devices_for(hard_case);
+    if (outcomes.empty()) GTEST_SKIP() << "no device of this kind, or none with this format";
+    const bool swiftshader = on_swiftshader(*outcomes[0].device);  // it is never among others
 
     for (int frame = 0; frame < hard_case.frames && !HasFailure(); ++frame) {
         SCOPED_TRACE(fmt::format("frame {}", frame));
         const Setting setting = hard_case.make(frame);
-        const Picture reference = must(take_picture(results[0].device->device, setting, options));
+        const Picture reference = must(take_picture(outcomes[0].device->device, setting, options));
         const Traced traced = trace_lights(
             setting,
             {.width = options.width,
              .height = options.height,
              .band_px = swiftshader ? band_px_on_swiftshader : truth::Options{}.band_px},
             options.samples);
-        judge(results[0], hard_case, reference, reference, traced);
-        for (std::size_t d = 1; d < results.size(); ++d) {
-            judge(results[d], hard_case,
-                  must(take_picture(results[d].device->device, setting, options)), reference,
+        judge(outcomes[0], hard_case, reference, reference, traced);
+        for (std::size_t d = 1; d < outcomes.size(); ++d) {
+            judge(outcomes[d], hard_case,
+                  must(take_picture(outcomes[d].device->device, setting, options)), reference,
                   traced);
         }
     }
 
-    for (const Result& result : results) {
-        if (result.limit == nullptr) continue;
-        const std::uint64_t off = std::max(result.judgement.wrong(), result.differing);
-        EXPECT_GT(off, 0U) << result.name << " is right here: it is no limit any more. "
-                           << result.limit->because;
-        EXPECT_LE(off, result.limit->most_pixels) << result.name << ": " << result.limit->because;
+    for (const Outcome& outcome : outcomes) {
+        if (outcome.limit == nullptr) continue;
+        const std::uint64_t off = std::max(outcome.judgement.wrong(), outcome.differing);
+        EXPECT_GT(off, 0U) << outcome.name << " is right here: it is no limit any more. "
+                           << outcome.limit->because;
+        EXPECT_LE(off, outcome.limit->most_pixels)
+            << outcome.name << ": " << outcome.limit->because;
     }
-    const truth::Judgement& total = results[0].judgement;
+    const truth::Judgement& total = outcomes[0].judgement;
     const auto judged = static_cast<double>(total.judged());
     const double band =
         static_cast<double>(total.band) / (judged + static_cast<double>(total.band));
     std::printf("| %s | %zu | %.0f | %.1f | %llu | %.2f |\n", hard_case.name.c_str(),
-                results.size(), judged, 100.0 * static_cast<double>(total.shadowed) / judged,
+                outcomes.size(), judged, 100.0 * static_cast<double>(total.shadowed) / judged,
                 static_cast<unsigned long long>(total.wrong()), 100.0 * band);
     if (hard_case.one_sided_because.empty()) {
         EXPECT_GE(static_cast<double>(total.lit), 0.05 * judged);

@@ -61,8 +61,8 @@ struct PairState {
     bool flattened = false;
     LightLocal detected;  ///< the light that the facing was decided for
     double margin = 0.0;  ///< how far it may move from there
-    double nearest_face =
-        -1;         ///< metres from the light to the nearest casting face, once asked for
+    /// Metres from the light to the nearest casting face; negative until asked for.
+    double nearest_face = -1.0;
     Layers layers;  ///< for the light where it is now
     // What the pair looked like last.
     LightLocal current;
