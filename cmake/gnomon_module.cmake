@@ -69,6 +69,8 @@ function(gnomon_add_library name)
     add_library(gnomon_${name} ${ARG_SOURCES})
     target_include_directories(gnomon_${name} PUBLIC
       $<BUILD_INTERFACE:${GNOMON_INCLUDE_ROOT}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    # For sources in folders below, which name the module's internal headers as those beside them do.
+    target_include_directories(gnomon_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
     target_compile_features(gnomon_${name} PUBLIC cxx_std_20)
     target_link_libraries(gnomon_${name} PRIVATE $<BUILD_INTERFACE:gnomon_compile_options>)
     target_link_libraries(gnomon_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})

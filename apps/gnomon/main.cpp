@@ -14,7 +14,7 @@
 
 #include <gnomon/scene/scene_description.hpp>
 #include <gnomon/shadows/casting_cost.hpp>
-#include <gnomon/shadows/silhouette.hpp>
+#include <gnomon/shadows/detector.hpp>
 
 #include "devices.hpp"
 #include "inspect_command.hpp"

@@ -36,29 +36,52 @@ Reason what_moved(const PairState& pair, const CasterState& caster, const LightS
     return light_moved ? Reason::LightMoved : Reason::CasterMoved;
 }
 
+// A pose without an inverse: decided where it leads to, relative to its own origin.
+const Detection& detect_flattened(const CasterState& caster, const LightState& light,
+                                  Scratch& scratch) {
+    const ShadowMesh& mesh = *caster.caster.mesh;
+    glm::dmat4 parent_from_local = caster.pose.world_from_local;
+    const glm::dvec3 origin(parent_from_local[3]);
+    parent_from_local[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
+    const glm::dvec4 world = light.light.position_world;
+    Facing& facing = scratch.facing;
+    classify_faces_flattened(mesh, parent_from_local, world - glm::dvec4(world.w * origin, 0.0),
+                             facing);
+    Detection& found = scratch.flattened;
+    runs_of(facing.weights, found.casting);
+    find_silhouette(mesh, facing.weights, found.silhouette);
+    found.solid_averted = facing.solid_averted;
+    found.margin = facing.margin;
+    found.stats = {.faces_tested = facing.stats.faces,
+                   .edges_tested = mesh.edges().size(),
+                   .double_tests = facing.stats.double_tests,
+                   .exact_tests = facing.stats.exact_tests};
+    return found;
+}
+
+SilhouetteDetector& detector_of(PairState& pair, const SilhouetteStrategy& strategy,
+                                Scratch& scratch) {
+    auto& detector = strategy.keeps_state ? pair.detector : scratch.detector;
+    if (detector == nullptr) detector = strategy.create();
+    return *detector;
+}
+
 void detect(PairState& pair, const CasterState& caster, const LightState& light,
             FarVertices far_vertices, const SilhouetteStrategy& strategy, Scratch& scratch,
             FrameStats& stats) {
     const ShadowMesh& mesh = *caster.caster.mesh;
     const auto start = Clock::now();
-    if (caster.pose.singular) {
-        // A pose without an inverse: decided where it leads to, relative to its own origin.
-        glm::dmat4 parent_from_local = caster.pose.world_from_local;
-        const glm::dvec3 origin(parent_from_local[3]);
-        parent_from_local[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
-        const glm::dvec4 world = light.light.position_world;
-        classify_faces_flattened(mesh, parent_from_local, world - glm::dvec4(world.w * origin, 0.0),
-                                 scratch.facing);
-    } else {
-        classify_faces(mesh, pair.current, scratch.facing, caster.caster.near_caps);
-    }
-    strategy.find(mesh, scratch.facing.weights, scratch.silhouette);
+    const Detection& found = caster.pose.singular
+                                 ? detect_flattened(caster, light, scratch)
+                                 : detector_of(pair, strategy, scratch)
+                                       .detect(mesh, pair.current, caster.caster.near_caps);
     const auto detected = Clock::now();
 
     auto volume = std::make_shared<Volume>();
-    build_volume(mesh, scratch.facing.weights, scratch.silhouette,
-                 light.light.position_world.w == 0.0, far_vertices, *volume,
-                 scratch.facing.solid_averted);
+    scratch.weights.resize(mesh.faces().size());
+    weights_of(found.casting, scratch.weights);
+    build_volume(mesh, scratch.weights, found.silhouette, light.light.position_world.w == 0.0,
+                 far_vertices, *volume, found.solid_averted);
     pair.mesh = caster.caster.mesh;
     pair.volume = std::move(volume);
     pair.volume_revision = next_volume_revision();
@@ -66,15 +89,16 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
     pair.near_caps = caster.caster.near_caps;
     pair.flattened = caster.pose.singular;
     pair.detected = pair.current;
-    pair.margin = scratch.facing.margin;
+    pair.margin = found.margin;
     pair.nearest_face = -1.0;
 
     stats.detect_ms += milliseconds(start, detected);
     stats.build_ms += milliseconds(detected, Clock::now());
-    stats.faces_tested += scratch.facing.stats.faces;
-    stats.facing.faces += scratch.facing.stats.faces;
-    stats.facing.double_tests += scratch.facing.stats.double_tests;
-    stats.facing.exact_tests += scratch.facing.stats.exact_tests;
+    stats.detection.faces_tested += found.stats.faces_tested;
+    stats.detection.edges_tested += found.stats.edges_tested;
+    stats.detection.double_tests += found.stats.double_tests;
+    stats.detection.exact_tests += found.stats.exact_tests;
+    stats.detection.bytes_touched += found.stats.bytes_touched;
     ++stats.pairs_redetected;
 }
 

@@ -228,13 +228,11 @@ void ShadowSystem::State::draw_light(LightState& light, const View& view, DrawLi
 }
 
 Result<ShadowSystem> ShadowSystem::create(const SystemOptions& options) {
-    const auto strategies = silhouette_strategies();
     const std::string_view name = options.silhouette == "auto" ? "brute_force" : options.silhouette;
-    const auto found = std::find_if(strategies.begin(), strategies.end(),
-                                    [&](const SilhouetteStrategy& s) { return s.name == name; });
-    if (found == strategies.end()) {
+    const SilhouetteStrategy* strategy = find_strategy(name);
+    if (strategy == nullptr) {
         std::string names = "auto";
-        for (const auto& s : strategies) names += ", " + std::string(s.name);
+        for (const auto& s : silhouette_strategies()) names += ", " + std::string(s.name);
         return fail(ErrorCode::InvalidInput, "There is no silhouette strategy named \"" +
                                                  std::string(options.silhouette) +
                                                  "\"; there are " + names + ".");
@@ -246,7 +244,7 @@ Result<ShadowSystem> ShadowSystem::create(const SystemOptions& options) {
     }
     auto state = std::make_unique<State>();
     state->options = options;
-    state->strategy = &*found;
+    state->strategy = strategy;
     return ShadowSystem(std::move(state));
 }
 

@@ -24,6 +24,7 @@
 
 #include <gnomon/core/expects.hpp>
 #include <gnomon/core/result.hpp>
+#include <gnomon/shadows/detector.hpp>
 #include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/light.hpp>
 #include <gnomon/shadows/shadow_mesh.hpp>
@@ -104,11 +105,10 @@ struct FrameStats {
     std::uint64_t zpass_pairs = 0;
     std::uint64_t zfail_pairs = 0;
     std::uint64_t silhouette_edges = 0;  ///< of all pairs drawn
-    std::uint64_t faces_tested = 0;
     std::uint64_t stencil_batches = 0;  ///< of all lights; as many as lights with volumes where
                                         ///< none was split
     std::uint64_t split_lights = 0;     ///< lights with more than one batch
-    FacingStats facing;
+    DetectionStats detection;
     double detect_ms = 0.0;                             ///< facing and silhouettes
     double build_ms = 0.0;                              ///< index ranges, parts included
     std::array<std::uint64_t, reason_count> reasons{};  ///< pairs, by Reason

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/shadows/silhouette.hpp>
 
-#include <array>
-
 namespace gnomon::shadows {
 
 void find_silhouette(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
@@ -17,13 +15,6 @@ void find_silhouette(const ShadowMesh& mesh, std::span<const std::int8_t> weight
         if (sum > 0) out.push_back({edge.low, edge.high, sum});
         if (sum < 0) out.push_back({edge.high, edge.low, -sum});
     }
-}
-
-std::span<const SilhouetteStrategy> silhouette_strategies() {
-    static constexpr std::array<SilhouetteStrategy, 1> strategies{{
-        {"brute_force", "every edge of the mesh, every time", find_silhouette},
-    }};
-    return strategies;
 }
 
 }  // namespace gnomon::shadows

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include <gnomon/shadows/detector.hpp>
 #include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/volume.hpp>
 
@@ -31,14 +32,6 @@ void require_closed_volumes(const ShadowMesh& mesh, const Facing& facing, bool d
     require(facing.margin >= 0.0, "the margin is a length");
     std::vector<SilhouetteEdge> silhouette;
     find_silhouette(mesh, facing.weights, silhouette);
-    std::vector<SilhouetteEdge> other;
-    for (const SilhouetteStrategy& strategy : silhouette_strategies()) {
-        strategy.find(mesh, facing.weights, other);
-        std::ranges::sort(other);
-        std::vector<SilhouetteEdge> expected = silhouette;
-        std::ranges::sort(expected);
-        require(other == expected, "all strategies find the same silhouette");
-    }
     for (const FarVertices far_vertices : {FarVertices::AtInfinity, FarVertices::Finite}) {
         Volume volume;
         build_volume(mesh, facing.weights, silhouette, directional, far_vertices, volume);
@@ -47,6 +40,24 @@ void require_closed_volumes(const ShadowMesh& mesh, const Facing& facing, bool d
         for (const std::uint32_t index : volume.indices) {
             require(index < 2 * mesh.positions().size(), "indices name vertices of the volume");
         }
+    }
+}
+
+void require_equal_strategies(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) {
+    Facing facing;
+    classify_faces(mesh, light, facing, near_caps);
+    std::vector<FaceRun> casting;
+    runs_of(facing.weights, casting);
+    std::vector<SilhouetteEdge> silhouette;
+    find_silhouette(mesh, facing.weights, silhouette);
+    std::ranges::sort(silhouette);
+    for (const SilhouetteStrategy& strategy : silhouette_strategies()) {
+        const auto detector = strategy.create();
+        const Detection& found = detector->detect(mesh, light, near_caps);
+        std::vector<SilhouetteEdge> edges = found.silhouette;
+        std::ranges::sort(edges);
+        require(edges == silhouette, "all strategies find the same silhouette");
+        require(found.casting == casting, "all strategies find the same faces");
     }
 }
 
@@ -72,6 +83,8 @@ void cast(FuzzInput& input) {
     Facing facing;
     classify_faces(**mesh, light, facing);
     require_closed_volumes(**mesh, facing, directional);
+    require_equal_strategies(**mesh, light, NearCaps::Facing);
+    require_equal_strategies(**mesh, light, NearCaps::Averted);
     classify_faces_flattened(**mesh, flattened, glm::dvec4(light.position), facing);
     require_closed_volumes(**mesh, facing, directional);
 }

@@ -89,7 +89,7 @@ TEST_F(ChangeDetection, NothingMovesNothingIsDone) {
         const DrawList list = frame();
         EXPECT_EQ(list.stats.pairs_redetected, 0U);
         EXPECT_EQ(list.stats.pairs_reused, 1U);
-        EXPECT_EQ(list.stats.faces_tested, 0U);
+        EXPECT_EQ(list.stats.detection.faces_tested, 0U);
         EXPECT_EQ(count(list, Reason::Unchanged), 1U);
     }
 }

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include <gnomon/shadows/detector.hpp>
 #include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/shadow_system.hpp>
 #include <gnomon/shadows/silhouette.hpp>
@@ -59,6 +60,8 @@ struct PairState {
     FarVertices far_vertices = FarVertices::AtInfinity;
     NearCaps near_caps = NearCaps::Facing;
     bool flattened = false;
+    /// Of a strategy that keeps state; else null.
+    std::unique_ptr<SilhouetteDetector> detector;
     LightLocal detected;  ///< the light that the facing was decided for
     double margin = 0.0;  ///< how far it may move from there
     /// Metres from the light to the nearest casting face; negative until asked for.
@@ -72,10 +75,12 @@ struct PairState {
     std::uint64_t frame = 0;
 };
 
-/// Buffers that detection reuses from pair to pair.
+/// What detection reuses from pair to pair.
 struct Scratch {
-    Facing facing;
-    std::vector<SilhouetteEdge> silhouette;
+    std::unique_ptr<SilhouetteDetector> detector;  ///< of a strategy that keeps no state
+    Facing facing;                                 ///< of singular poses
+    Detection flattened;
+    std::vector<std::int8_t> weights;
 };
 
 /// Unique in the process, never 0.

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+//
+// Detectors: what of a caster casts for a light, and the silhouette of that. Many strategies give
+// the same answer at different costs; they stand in one table and are chosen by name.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/light.hpp>
+#include <gnomon/shadows/shadow_mesh.hpp>
+#include <gnomon/shadows/silhouette.hpp>
+
+namespace gnomon::shadows {
+
+/// Faces [first, first + count) all weigh `weight`, which is not 0.
+struct FaceRun {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    std::int32_t weight = 0;
+    auto operator<=>(const FaceRun&) const = default;
+};
+
+/// Weights by face (Facing::weights) as runs: ascending, and no two that could be one. Replaces
+/// `runs`. Cost: linear.
+void runs_of(std::span<const std::int8_t> weights, std::vector<FaceRun>& runs);
+/// And back. `weights` has a place for each face.
+void weights_of(std::span<const FaceRun> runs, std::span<std::int8_t> weights);
+
+/// What one call of a detector looked at.
+struct DetectionStats {
+    std::uint64_t faces_tested = 0;
+    std::uint64_t edges_tested = 0;
+    std::uint64_t double_tests = 0;   ///< as in FacingStats
+    std::uint64_t exact_tests = 0;    ///< as in FacingStats
+    std::uint64_t bytes_touched = 0;  ///< of the mesh and of what the detector remembers, about
+};
+
+/// What casts and its boundary: the same for every strategy but for the order of the silhouette.
+struct Detection {
+    std::vector<FaceRun> casting;             ///< as runs_of() makes them of Facing::weights
+    std::vector<SilhouetteEdge> silhouette;   ///< in any order, no edge twice
+    std::vector<std::uint8_t> solid_averted;  ///< Facing::solid_averted
+    /// A margin as Facing::margin, though maybe a smaller one: how far the light may move from
+    /// where it is, for which all of this is provably the same.
+    double margin = 0.0;
+    /// False: all but the margin is what the same detector's last call gave, for the same mesh.
+    bool changed = true;
+    DetectionStats stats;
+};
+
+/// One detector, one thread at a time.
+class SilhouetteDetector {
+public:
+    SilhouetteDetector() = default;
+    SilhouetteDetector(const SilhouetteDetector&) = delete;
+    SilhouetteDetector& operator=(const SilhouetteDetector&) = delete;
+    virtual ~SilhouetteDetector() = default;
+
+    /// Exact for `light` as it is, as classify_faces() and find_silhouette() have it: nothing casts
+    /// for a light that is not finite. The answer is valid until the next call. Where the strategy
+    /// keeps state, whatever came before costs or saves time and changes no answer.
+    virtual const Detection& detect(const ShadowMesh& mesh, LightLocal light,
+                                    NearCaps near_caps) = 0;
+
+    /// What it remembers between calls, the answer included.
+    [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
+};
+
+struct SilhouetteStrategy {
+    std::string_view name;
+    std::string_view summary;
+    /// A detector works from what it saw of the same pair last, so that each pair of caster and
+    /// light wants one of its own. Otherwise one serves all in turn.
+    bool keeps_state = false;
+    std::unique_ptr<SilhouetteDetector> (*create)() = nullptr;
+};
+
+/// All strategies, by name; "auto" is not among them: it is the choice between them.
+[[nodiscard]] std::span<const SilhouetteStrategy> silhouette_strategies();
+/// Null where there is none of that name.
+[[nodiscard]] const SilhouetteStrategy* find_strategy(std::string_view name);
+
+}  // namespace gnomon::shadows

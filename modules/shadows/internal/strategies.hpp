@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+//
+// One function a strategy, each at home in strategies/<name>.cpp.
+#pragma once
+
+#include <memory>
+
+#include <gnomon/shadows/detector.hpp>
+
+namespace gnomon::shadows::internal {
+
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> brute_force_detector();
+
+/// The bytes that a detection's lists hold.
+[[nodiscard]] std::size_t memory_of(const Detection& detection);
+
+}  // namespace gnomon::shadows::internal

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+//
+// All strategies give the same answer: for one light, and along motions where those that keep state
+// work from what they saw last.
+#include <gnomon/shadows/detector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/shadows/random_meshes.hpp"
+
+namespace gnomon::shadows {
+namespace {
+
+using test::Random;
+
+struct Answer {
+    std::vector<FaceRun> casting;
+    std::vector<SilhouetteEdge> silhouette;
+    std::vector<std::uint8_t> solid_averted;
+    bool operator==(const Answer&) const = default;
+};
+
+// The plain way, which no detector shares.
+Answer expected(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps, double& margin) {
+    Facing facing;
+    classify_faces(mesh, light, facing, near_caps, FacingFilter::Scalar);
+    margin = facing.margin;
+    Answer answer;
+    runs_of(facing.weights, answer.casting);
+    find_silhouette(mesh, facing.weights, answer.silhouette);
+    std::ranges::sort(answer.silhouette);
+    answer.solid_averted = facing.solid_averted;
+    return answer;
+}
+
+Answer answer_of(const Detection& found) {
+    Answer answer{found.casting, found.silhouette, found.solid_averted};
+    std::ranges::sort(answer.silhouette);
+    return answer;
+}
+
+std::uint64_t pairs_to_try() {
+    const char* set = std::getenv("GNOMON_PAIRS");
+    return set == nullptr ? 3'000 : std::strtoull(set, nullptr, 10);
+}
+
+class EveryStrategy : public testing::TestWithParam<std::string> {
+protected:
+    const SilhouetteStrategy& strategy() const { return *find_strategy(GetParam()); }
+};
+
+TEST_P(EveryStrategy, FindsWhatThePlainWayFinds) {
+    GNOMON_RANDOM(random);
+    const auto detector = strategy().create();
+    for (std::uint64_t i = 0; i < pairs_to_try(); ++i) {
+        const auto mesh = test::build(test::random_mesh(random));
+        const LightLocal light = test::random_light(random, *mesh);
+        const NearCaps near_caps = random.chance(0.5) ? NearCaps::Facing : NearCaps::Averted;
+        double margin = 0.0;
+        const Answer wanted = expected(*mesh, light, near_caps, margin);
+        const Detection& found = detector->detect(*mesh, light, near_caps);
+        ASSERT_EQ(answer_of(found), wanted) << "pair " << i;
+        ASSERT_GE(found.margin, 0.0);
+        ASSERT_LE(found.margin, margin * (1.0 + 1e-6)) << "pair " << i;
+    }
+}
+
+// Steps of every size, from far below a margin to a jump; the light stays, turns back, becomes a
+// direction, and goes to places where everything is degenerate.
+TEST_P(EveryStrategy, FollowsAMotion) {
+    GNOMON_RANDOM(random);
+    for (int motion = 0; motion < 60; ++motion) {
+        const auto mesh =
+            test::build(motion % 3 == 0 ? test::sphere(12, 17) : test::random_mesh(random));
+        const auto detector = strategy().create();
+        LightLocal light = test::random_light(random, *mesh);
+        NearCaps near_caps = NearCaps::Facing;
+        Answer last;
+        for (int step = 0; step < 100; ++step) {
+            if (random.chance(0.05)) light = test::random_light(random, *mesh);
+            if (random.chance(0.02)) {
+                near_caps = near_caps == NearCaps::Facing ? NearCaps::Averted : NearCaps::Facing;
+            }
+            if (random.chance(0.9)) {
+                const double length = std::pow(10.0, random.uniform(-7.0, 0.5));
+                light.position += glm::vec4(length * random.unit_vector(), 0.0);
+            }
+            double margin = 0.0;
+            const Answer wanted = expected(*mesh, light, near_caps, margin);
+            const Detection& found = detector->detect(*mesh, light, near_caps);
+            const Answer answer = answer_of(found);
+            ASSERT_EQ(answer, wanted) << "motion " << motion << ", step " << step;
+            ASSERT_LE(found.margin, margin * (1.0 + 1e-6))
+                << "motion " << motion << ", step " << step;
+            if (!found.changed) {
+                ASSERT_EQ(answer, last) << "motion " << motion << ", step " << step;
+            }
+            last = answer;
+        }
+    }
+}
+
+TEST_P(EveryStrategy, FindsNothingForALightThatIsNotFinite) {
+    const auto mesh = test::build(test::box());
+    const auto detector = strategy().create();
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(detector->detect(*mesh, {{5, 6, 7, 1}}, NearCaps::Facing).casting.empty());
+    const Detection& none = detector->detect(*mesh, {{nan, 0, 0, 1}}, NearCaps::Facing);
+    EXPECT_TRUE(none.casting.empty());
+    EXPECT_TRUE(none.silhouette.empty());
+    EXPECT_EQ(none.margin, 0.0);
+    EXPECT_FALSE(detector->detect(*mesh, {{5, 6, 7, 1}}, NearCaps::Facing).casting.empty());
+}
+
+TEST_P(EveryStrategy, TakesAMeshWithoutFaces) {
+    const auto mesh = test::build({});
+    const Detection& found = strategy().create()->detect(*mesh, {{5, 6, 7, 1}}, NearCaps::Facing);
+    EXPECT_TRUE(found.casting.empty());
+    EXPECT_TRUE(found.silhouette.empty());
+}
+
+TEST_P(EveryStrategy, CountsWhatItRemembers) {
+    const auto mesh = test::build(test::sphere(40, 60));
+    const auto detector = strategy().create();
+    const std::size_t before = detector->memory_bytes();
+    const std::size_t edges =
+        detector->detect(*mesh, {{5, 6, 7, 1}}, NearCaps::Facing).silhouette.size();
+    EXPECT_GE(detector->memory_bytes(), before + edges * sizeof(SilhouetteEdge));
+}
+
+std::vector<std::string> names() {
+    std::vector<std::string> result;
+    for (const SilhouetteStrategy& strategy : silhouette_strategies()) {
+        result.emplace_back(strategy.name);
+    }
+    return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Strategies, EveryStrategy, testing::ValuesIn(names()),
+                         [](const auto& row) { return row.param; });
+
+TEST(Strategies, HaveNamesOfTheirOwn) {
+    std::set<std::string> unique;
+    for (const SilhouetteStrategy& strategy : silhouette_strategies()) {
+        EXPECT_FALSE(strategy.summary.empty());
+        EXPECT_NE(strategy.name, "auto");
+        EXPECT_EQ(find_strategy(strategy.name), &strategy);
+        unique.insert(std::string(strategy.name));
+    }
+    EXPECT_EQ(unique.size(), silhouette_strategies().size());
+    EXPECT_TRUE(unique.contains("brute_force"));
+    EXPECT_EQ(find_strategy("no such"), nullptr);
+}
+
+TEST(Runs, AreTheWeights) {
+    GNOMON_RANDOM(random);
+    std::vector<FaceRun> runs;
+    for (int i = 0; i < 1'000; ++i) {
+        std::vector<std::int8_t> weights(random.below(200) + 1);
+        for (std::int8_t& weight : weights) {
+            weight = static_cast<std::int8_t>(random.chance(0.6) ? 1 : random.integer(-2, 2));
+        }
+        runs_of(weights, runs);
+        for (std::size_t r = 0; r < runs.size(); ++r) {
+            ASSERT_NE(runs[r].weight, 0);
+            ASSERT_GT(runs[r].count, 0U);
+            if (r == 0) continue;
+            const std::uint32_t end = runs[r - 1].first + runs[r - 1].count;
+            ASSERT_GE(runs[r].first, end);
+            ASSERT_TRUE(runs[r].first > end || runs[r].weight != runs[r - 1].weight);
+        }
+        std::vector<std::int8_t> back(weights.size(), 7);
+        weights_of(runs, back);
+        ASSERT_EQ(back, weights);
+    }
+}
+
+}  // namespace
+}  // namespace gnomon::shadows
