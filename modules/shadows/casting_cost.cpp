@@ -28,7 +28,7 @@ void measure(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
     for (const Edge& edge : mesh.edges()) {
         std::int32_t count = 0;
         const auto uses = mesh.uses(edge);
-        for (const FaceUse& use : uses) count += use.sign * weights[use.face];
+        for (const FaceUse& use : uses) count += use.sign() * weights[use.face];
         if (count == 0) continue;
         VolumeSize& size = sizes[component_of[uses.front().face]];
         ++size.silhouette_edges;

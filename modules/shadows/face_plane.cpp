@@ -65,7 +65,7 @@ FacePlanes make_face_planes(std::span<const glm::vec3> positions,
     planes.radius = round_up((half.x + half.y + half.z) * (1.0 + 0x1p-50));
     for (std::vector<float>* values :
          {&planes.normal_x, &planes.normal_y, &planes.normal_z, &planes.offset, &planes.error}) {
-        values->resize(faces.size());
+        values->resize((faces.size() + 15) / 16 * 16, 0.0F);
     }
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const FacePlane plane = make_face_plane(positions[faces[f][0]], positions[faces[f][1]],

@@ -96,7 +96,7 @@ void Splitter::order_faces() {
     for (const Edge& edge : mesh_.edges()) {
         std::int32_t sum = 0;
         for (std::uint32_t i = edge.first_use; i < edge.first_use + edge.use_count; ++i) {
-            sum += uses[i].sign * weights_[uses[i].face];
+            sum += uses[i].sign() * weights_[uses[i].face];
         }
         if (sum != 0) continue;
         const FaceUse* first = nullptr;

@@ -12,8 +12,10 @@
 
 #include <gnomon/shadows/topology.hpp>
 
-#include "internal/disjoint_sets.hpp"
+#include "internal/detection_tables.hpp"
 #include "internal/face_plane.hpp"
+#include "internal/finite.hpp"
+#include "internal/mesh_topology.hpp"
 #include "internal/rounded_product.hpp"
 
 namespace gnomon::shadows {
@@ -68,33 +70,6 @@ struct SignedVolume {
     }
 };
 
-struct HalfEdge {
-    std::uint32_t low, high, face;
-    std::int32_t sign;  // 0: of a face with two equal corners, which uses no edge but lies at one
-};
-
-std::vector<HalfEdge> sorted_half_edges(std::span<const std::array<std::uint32_t, 3>> faces) {
-    std::vector<HalfEdge> result;
-    result.reserve(faces.size() * 3);
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        const auto& [a, b, c] = faces[f];
-        const bool collapsed = a == b || b == c || c == a;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t from = faces[f][i];
-            const std::uint32_t to = faces[f][(i + 1) % 3];
-            if (from == to) continue;
-            result.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(f),
-                              collapsed ? 0 : (from < to ? 1 : -1)});
-        }
-    }
-    std::sort(result.begin(), result.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        if (a.low != b.low) return a.low < b.low;
-        if (a.high != b.high) return a.high < b.high;
-        return a.face < b.face;
-    });
-    return result;
-}
-
 Status check(const MeshView& view) {
     const auto bad = [](std::string sentence) {
         return fail(ErrorCode::InvalidInput, std::move(sentence));
@@ -128,85 +103,50 @@ Status check(const MeshView& view) {
     return {};
 }
 
-}  // namespace
+std::uint64_t next_mesh_id() {
+    static std::atomic<std::uint64_t> next{1};
+    return next.fetch_add(1);
+}
 
-Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view) {
-    if (const Status ok = check(view); !ok) return forward_error(ok);
+struct Welded {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> sources;  // by position: the first vertex that has it
+    std::vector<std::array<std::uint32_t, 3>> faces;
+};
 
-    static std::atomic<std::uint64_t> next_id{1};
-    std::shared_ptr<ShadowMesh> mesh(new ShadowMesh);
-    mesh->id_ = next_id.fetch_add(1);
-    MeshReport& report = mesh->report_;
-    report.triangles = view.indices.size() / 3;
-    report.vertices = view.vertex_count;
-
-    // Weld: only positions that triangles use, numbered by first use.
-    {
-        std::unordered_map<glm::vec3, std::uint32_t, PositionHash> welded;
-        welded.reserve(view.vertex_count);
-        std::vector<std::uint32_t> welded_of(view.vertex_count,
-                                             std::numeric_limits<std::uint32_t>::max());
-        mesh->faces_.resize(view.indices.size() / 3);
-        for (std::size_t i = 0; i < view.indices.size(); ++i) {
-            const std::uint32_t vertex = view.indices[i];
-            std::uint32_t& target = welded_of[vertex];
-            if (target == std::numeric_limits<std::uint32_t>::max()) {
-                const glm::vec3 p = position_at(view, vertex);
-                const auto [found, inserted] =
-                    welded.try_emplace(p, static_cast<std::uint32_t>(mesh->positions_.size()));
-                if (inserted) mesh->positions_.push_back(p);
-                target = found->second;
+// Only positions that triangles use, numbered by first use.
+Welded weld(const MeshView& view) {
+    constexpr std::uint32_t unknown = std::numeric_limits<std::uint32_t>::max();
+    Welded result;
+    std::unordered_map<glm::vec3, std::uint32_t, PositionHash> known;
+    known.reserve(view.vertex_count);
+    std::vector<std::uint32_t> welded_of(view.vertex_count, unknown);
+    result.faces.resize(view.indices.size() / 3);
+    for (std::size_t i = 0; i < view.indices.size(); ++i) {
+        const std::uint32_t vertex = view.indices[i];
+        std::uint32_t& target = welded_of[vertex];
+        if (target == unknown) {
+            const glm::vec3 p = position_at(view, vertex);
+            const auto [found, inserted] =
+                known.try_emplace(p, static_cast<std::uint32_t>(result.positions.size()));
+            if (inserted) {
+                result.positions.push_back(p);
+                result.sources.push_back(vertex);
             }
-            mesh->faces_[i / 3][i % 3] = target;
+            target = found->second;
         }
+        result.faces[i / 3][i % 3] = target;
     }
-    report.welded_vertices = mesh->positions_.size();
+    return result;
+}
 
-    // Edges with their signed uses; components.
-    const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh->faces_);
-    internal::DisjointSets groups(mesh->faces_.size());
-    mesh->uses_.reserve(half_edges.size());
-    for (std::size_t begin = 0; begin < half_edges.size();) {
-        const HalfEdge& edge = half_edges[begin];
-        const auto first_use = static_cast<std::uint32_t>(mesh->uses_.size());
-        for (; begin < half_edges.size() && half_edges[begin].low == edge.low &&
-               half_edges[begin].high == edge.high;
-             ++begin) {
-            const HalfEdge& use = half_edges[begin];
-            groups.join(edge.face, use.face);
-            if (use.sign == 0) continue;
-            mesh->uses_.push_back({use.face, use.sign});
-        }
-        const auto count = static_cast<std::uint32_t>(mesh->uses_.size()) - first_use;
-        if (count > 0) mesh->edges_.push_back({edge.low, edge.high, first_use, count});
-    }
-    report.edges = mesh->edges_.size();
-
-    std::vector<std::uint32_t> component_of_root(mesh->faces_.size());
-    std::vector<SignedVolume> volumes;
-    mesh->face_components_.resize(mesh->faces_.size());
-    for (std::uint32_t f = 0; f < mesh->faces_.size(); ++f) {
-        const auto& face = mesh->faces_[f];
-        const glm::vec3 a = mesh->positions_[face[0]];
-        const glm::vec3 b = mesh->positions_[face[1]];
-        const glm::vec3 c = mesh->positions_[face[2]];
-        const std::uint32_t root = groups.find(f);
-        if (root == f) {
-            component_of_root[f] = static_cast<std::uint32_t>(mesh->components_.size());
-            mesh->components_.push_back({.bounds_min = a, .bounds_max = a});
-            volumes.push_back({.reference = glm::dvec3(a)});
-        }
-        const std::uint32_t index = component_of_root[root];
-        mesh->face_components_[f] = index;
-        Component& component = mesh->components_[index];
-        ++component.faces;
-        component.bounds_min = glm::min(component.bounds_min, glm::min(a, glm::min(b, c)));
-        component.bounds_max = glm::max(component.bounds_max, glm::max(a, glm::max(b, c)));
-        volumes[index].add(a, b, c);
-    }
-    for (const Edge& edge : mesh->edges_) {
-        const auto uses = mesh->uses(edge);
-        Component& component = mesh->components_[mesh->face_components_[uses.front().face]];
+// What follows from topology alone.
+std::vector<Component> components_of(const internal::MeshTopology& topology) {
+    std::vector<Component> components(topology.components);
+    for (const std::uint32_t c : topology.face_components) ++components[c].faces;
+    for (const Edge& edge : topology.edges) {
+        const auto uses = std::span(topology.uses).subspan(edge.first_use, edge.use_count);
+        Component& component = components[topology.face_components[uses.front().face]];
         ++component.edges;
         if (edge_balance(uses) != 0) ++component.unbalanced_edges;
         switch (edge_kind(uses)) {
@@ -216,35 +156,168 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
             case EdgeKind::NonManifold: ++component.non_manifold_edges; break;
         }
     }
-    for (std::size_t i = 0; i < mesh->components_.size(); ++i) {
-        Component& component = mesh->components_[i];
+    for (Component& component : components) component.closed = component.unbalanced_edges == 0;
+    return components;
+}
+
+// Bounds, and which closed components are inside out.
+void place(std::vector<Component>& components, std::span<const glm::vec3> positions,
+           std::span<const std::array<std::uint32_t, 3>> faces,
+           std::span<const std::uint32_t> face_components) {
+    std::vector<SignedVolume> volumes(components.size());
+    std::vector<std::uint8_t> met(components.size(), 0);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const glm::vec3& a = positions[faces[f][0]];
+        const glm::vec3& b = positions[faces[f][1]];
+        const glm::vec3& c = positions[faces[f][2]];
+        const std::uint32_t index = face_components[f];
+        Component& component = components[index];
+        if (met[index] == 0) {
+            met[index] = 1;
+            component.bounds_min = component.bounds_max = a;
+            volumes[index].reference = glm::dvec3(a);
+        }
+        component.bounds_min = glm::min(component.bounds_min, glm::min(a, glm::min(b, c)));
+        component.bounds_max = glm::max(component.bounds_max, glm::max(a, glm::max(b, c)));
+        volumes[index].add(a, b, c);
+    }
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        components[i].inside_out =
+            components[i].closed && volumes[i].certainly_negative(components[i].faces);
+    }
+}
+
+// Planes in the order of `order`, and padded.
+void order_planes(FacePlanes& planes, std::span<const std::uint32_t> order) {
+    for (std::vector<float>* values :
+         {&planes.normal_x, &planes.normal_y, &planes.normal_z, &planes.offset, &planes.error}) {
+        std::vector<float> ordered(values->size(), 0.0F);
+        for (std::size_t f = 0; f < order.size(); ++f) ordered[f] = (*values)[order[f]];
+        *values = std::move(ordered);
+    }
+}
+
+}  // namespace
+
+const internal::MeshTopology& internal::topology_of(const ShadowMesh& mesh) {
+    return *mesh.topology_;
+}
+
+const internal::DetectionTables& internal::tables_of(const ShadowMesh& mesh) {
+    return *mesh.tables_;
+}
+
+void ShadowMesh::take(std::shared_ptr<const internal::MeshTopology> topology) {
+    topology_ = std::move(topology);
+    faces_ = topology_->faces;
+    input_faces_ = topology_->input_faces;
+    edges_ = topology_->edges;
+    uses_ = topology_->uses;
+    face_edges_ = topology_->face_edges;
+    face_components_ = topology_->face_components;
+    regular_edges_ = topology_->regular_edges;
+}
+
+void ShadowMesh::find_bounds() {
+    for (std::size_t i = 0; i < components_.size(); ++i) {
+        if (i == 0) {
+            bounds_min_ = components_[i].bounds_min;
+            bounds_max_ = components_[i].bounds_max;
+        }
+        bounds_min_ = glm::min(bounds_min_, components_[i].bounds_min);
+        bounds_max_ = glm::max(bounds_max_, components_[i].bounds_max);
+    }
+}
+
+void ShadowMesh::make_tables() {
+    tables_ = std::make_shared<const internal::DetectionTables>(internal::make_tables(*this));
+    for (const std::uint32_t f : tables_->degenerate_faces) {
+        ++components_[face_components_[f]].degenerate_faces;
+    }
+    report_.degenerate_faces = tables_->degenerate_faces.size();
+}
+
+Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view) {
+    if (const Status ok = check(view); !ok) return forward_error(ok);
+
+    std::shared_ptr<ShadowMesh> mesh(new ShadowMesh);
+    mesh->id_ = next_mesh_id();
+    Welded welded = weld(view);
+    mesh->positions_ = std::move(welded.positions);
+    internal::MeshTopology topology =
+        internal::connect(std::move(welded.faces), mesh->positions_.size());
+    topology.input_vertices = view.vertex_count;
+    topology.sources = std::move(welded.sources);
+    mesh->components_ = components_of(topology);
+    place(mesh->components_, mesh->positions_, topology.faces, topology.face_components);
+    mesh->find_bounds();
+    mesh->planes_ = internal::make_face_planes(mesh->positions_, topology.faces, mesh->bounds_min_,
+                                               mesh->bounds_max_);
+
+    MeshReport& report = mesh->report_;
+    report.triangles = topology.faces.size();
+    report.vertices = view.vertex_count;
+    report.welded_vertices = mesh->positions_.size();
+    report.edges = topology.edges.size();
+    report.components = mesh->components_.size();
+    std::vector<std::uint8_t> closed;
+    for (const Component& component : mesh->components_) {
         report.boundary_edges += component.boundary_edges;
         report.non_manifold_edges += component.non_manifold_edges;
         report.inconsistent_edges += component.inconsistent_edges;
         report.unbalanced_edges += component.unbalanced_edges;
-        component.closed = component.unbalanced_edges == 0;
-        component.inside_out = component.closed && volumes[i].certainly_negative(component.faces);
-        if (component.closed) ++report.closed_components;
-        if (i == 0) {
-            mesh->bounds_min_ = component.bounds_min;
-            mesh->bounds_max_ = component.bounds_max;
-        }
-        mesh->bounds_min_ = glm::min(mesh->bounds_min_, component.bounds_min);
-        mesh->bounds_max_ = glm::max(mesh->bounds_max_, component.bounds_max);
+        report.closed_components += component.closed ? 1 : 0;
+        closed.push_back(component.closed ? 1 : 0);
     }
-    report.components = mesh->components_.size();
-    mesh->planes_ = internal::make_face_planes(mesh->positions_, mesh->faces_, mesh->bounds_min_,
-                                               mesh->bounds_max_);
-    for (std::size_t f = 0; f < mesh->faces_.size(); ++f) {
-        if (!mesh->is_degenerate(f)) continue;
-        ++report.degenerate_faces;
-        ++mesh->components_[mesh->face_components_[f]].degenerate_faces;
+
+    internal::order_by_planes(topology, mesh->planes_, closed);
+    order_planes(mesh->planes_, topology.input_faces);
+    mesh->take(std::make_shared<const internal::MeshTopology>(std::move(topology)));
+    mesh->make_tables();
+    return mesh;
+}
+
+Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::deformed(
+    std::span<const glm::vec3> positions) const {
+    if (positions.size() != topology_->input_vertices) {
+        return fail(ErrorCode::InvalidInput, "The deformed mesh has " +
+                                                 std::to_string(positions.size()) +
+                                                 " vertices; the mesh was built from " +
+                                                 std::to_string(topology_->input_vertices) + ".");
     }
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        if (internal::is_finite(positions[v])) continue;
+        return fail(ErrorCode::InvalidInput,
+                    "Position " + std::to_string(v) + " of the deformed mesh is not finite.");
+    }
+    std::shared_ptr<ShadowMesh> mesh(new ShadowMesh);
+    mesh->id_ = next_mesh_id();
+    mesh->take(topology_);
+    mesh->report_ = report_;
+    mesh->positions_.reserve(positions_.size());
+    for (const std::uint32_t source : topology_->sources) {
+        mesh->positions_.push_back(positions[source] + 0.0F);  // as position_at()
+    }
+    mesh->components_ = components_;
+    for (Component& component : mesh->components_) component.degenerate_faces = 0;
+    place(mesh->components_, mesh->positions_, faces_, face_components_);
+    mesh->find_bounds();
+    mesh->planes_ =
+        internal::make_face_planes(mesh->positions_, faces_, mesh->bounds_min_, mesh->bounds_max_);
+    mesh->make_tables();
     return mesh;
 }
 
 bool ShadowMesh::is_degenerate(std::size_t face) const {
     return internal::is_degenerate(planes_, face);
+}
+
+std::size_t ShadowMesh::memory_bytes() const {
+    return sizeof *this + positions_.capacity() * sizeof(glm::vec3) + topology_->memory_bytes() +
+           components_.capacity() * sizeof(Component) +
+           5 * planes_.error.capacity() * sizeof(float) + tables_->faces.memory_bytes() +
+           tables_->edges.memory_bytes() +
+           tables_->degenerate_faces.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace gnomon::shadows

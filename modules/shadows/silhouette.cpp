@@ -10,7 +10,7 @@ void find_silhouette(const ShadowMesh& mesh, std::span<const std::int8_t> weight
     for (const Edge& edge : mesh.edges()) {
         std::int32_t sum = 0;
         for (std::uint32_t i = edge.first_use; i < edge.first_use + edge.use_count; ++i) {
-            sum += uses[i].sign * weights[uses[i].face];
+            sum += uses[i].sign() * weights[uses[i].face];
         }
         if (sum > 0) out.push_back({edge.low, edge.high, sum});
         if (sum < 0) out.push_back({edge.high, edge.low, -sum});

@@ -5,7 +5,7 @@ namespace gnomon::shadows {
 
 std::int32_t edge_balance(std::span<const FaceUse> uses) {
     std::int32_t sum = 0;
-    for (const FaceUse& use : uses) sum += use.sign;
+    for (const FaceUse& use : uses) sum += use.sign();
     return sum;
 }
 

@@ -3,6 +3,7 @@
 // ShadowMesh::build: the report of known shapes (the same figures, by the same definitions, as a
 // mesh statistics tool of its own gives), welding, invariants on random meshes, and every error.
 #include <gnomon/shadows/shadow_mesh.hpp>
+#include <gnomon/shadows/topology.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -219,11 +220,15 @@ TEST(ShadowMesh, EdgesComponentsAndPlanesAreRightForRandomMeshes) {
         const auto p = mesh->positions();
         ASSERT_EQ(faces.size(), triangles.count());
 
-        // Faces keep their order and corners, and every position is there once.
+        // Every face is there once and keeps its corners, and so is every position.
         std::set<std::array<float, 3>> distinct;
+        std::set<std::uint32_t> inputs;
         for (std::size_t f = 0; f < faces.size(); ++f) {
+            const std::size_t input = mesh->input_faces()[f];
+            ASSERT_LT(input, faces.size());
+            ASSERT_TRUE(inputs.insert(mesh->input_faces()[f]).second);
             for (std::size_t k = 0; k < 3; ++k) {
-                ASSERT_EQ(p[faces[f][k]], triangles.positions[triangles.indices[3 * f + k]]);
+                ASSERT_EQ(p[faces[f][k]], triangles.positions[triangles.indices[3 * input + k]]);
             }
         }
         for (const glm::vec3& v : p) ASSERT_TRUE(distinct.insert({v.x, v.y, v.z}).second);
@@ -248,8 +253,8 @@ TEST(ShadowMesh, EdgesComponentsAndPlanesAreRightForRandomMeshes) {
             std::map<std::uint32_t, int> found;
             int sum = 0;
             for (const FaceUse& use : uses) {
-                found[use.face] += use.sign;
-                sum += use.sign;
+                found[use.face] += use.sign();
+                sum += use.sign();
                 // Faces at one edge belong together.
                 ASSERT_EQ(mesh->face_components()[use.face], mesh->face_components()[uses[0].face]);
             }
@@ -258,6 +263,29 @@ TEST(ShadowMesh, EdgesComponentsAndPlanesAreRightForRandomMeshes) {
         }
         for (std::size_t c = 0; c < open.size(); ++c)
             ASSERT_NE(mesh->components()[c].closed, open[c]);
+
+        // Regular edges come first, and faces know their edges.
+        for (std::size_t e = 0; e < mesh->edges().size(); ++e) {
+            const auto uses = mesh->uses(mesh->edges()[e]);
+            ASSERT_EQ(edge_kind(uses) == EdgeKind::Regular, e < mesh->regular_edges());
+            if (e >= mesh->regular_edges()) continue;
+            ASSERT_EQ(mesh->edges()[e].first_use, 2 * e);
+            ASSERT_EQ(uses[0].sign(), 1);
+            ASSERT_EQ(uses[1].sign(), -1);
+        }
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            const auto& [a, b, c] = faces[f];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t e = mesh->face_edges()[f][k];
+                if (a == b || b == c || c == a) {
+                    ASSERT_EQ(e, ShadowMesh::no_edge);
+                    continue;
+                }
+                const auto [low, high] = std::minmax(faces[f][k], faces[f][(k + 1) % 3]);
+                ASSERT_EQ(mesh->edges()[e].low, low);
+                ASSERT_EQ(mesh->edges()[e].high, high);
+            }
+        }
 
         // Planes: the bound on the error covers the error.
         const FacePlanes& planes = mesh->planes();
@@ -274,6 +302,65 @@ TEST(ShadowMesh, EdgesComponentsAndPlanesAreRightForRandomMeshes) {
             }
         }
     }
+}
+
+// What was built at other places is the mesh as far as anything can tell but for its orders.
+TEST(ShadowMesh, DeformedIsWhatWouldBeBuiltThere) {
+    GNOMON_RANDOM(random);
+    for (int i = 0; i < 500; ++i) {
+        const Triangles rest = test::random_mesh(random);
+        const auto mesh = test::build(rest);
+        Triangles moved = rest;
+        const glm::dmat3 turn = random.rotation();
+        for (glm::vec3& p : moved.positions) {
+            // Bends, and equal places stay equal.
+            const glm::dvec3 q = turn * glm::dvec3(p);
+            p = glm::vec3(q + 0.125 * q * glm::dvec3(q.y, q.z, q.x));
+        }
+        const auto deformed = mesh->deformed(moved.positions);
+        ASSERT_TRUE(deformed);
+        EXPECT_NE((*deformed)->id(), mesh->id());
+        const ShadowMesh& there = **deformed;
+        ASSERT_EQ(there.faces().data(), mesh->faces().data()) << "topology is shared";
+        const auto built = test::build(moved);
+        EXPECT_EQ(there.report().components, built->report().components);
+        EXPECT_EQ(there.bounds_min(),
+                  mesh->report().triangles > 0 ? built->bounds_min() : there.bounds_min());
+        EXPECT_EQ(there.bounds_max(),
+                  mesh->report().triangles > 0 ? built->bounds_max() : there.bounds_max());
+        if (built->report().welded_vertices != mesh->report().welded_vertices) continue;
+        EXPECT_EQ(there.report().degenerate_faces, built->report().degenerate_faces);
+        std::map<std::uint32_t, std::uint32_t> place;
+        for (std::uint32_t f = 0; f < built->faces().size(); ++f) {
+            place[built->input_faces()[f]] = f;
+        }
+        for (std::uint32_t f = 0; f < there.faces().size(); ++f) {
+            const std::uint32_t g = place[there.input_faces()[f]];
+            ASSERT_EQ(there.is_degenerate(f), built->is_degenerate(g));
+            ASSERT_EQ(there.planes().normal_x[f], built->planes().normal_x[g]);
+            ASSERT_EQ(there.planes().offset[f], built->planes().offset[g]);
+            ASSERT_EQ(there.planes().error[f], built->planes().error[g]);
+        }
+        for (std::size_t c = 0; c < there.components().size(); ++c) {
+            ASSERT_EQ(there.components()[c].bounds_min, built->components()[c].bounds_min);
+            ASSERT_EQ(there.components()[c].degenerate_faces,
+                      built->components()[c].degenerate_faces);
+        }
+    }
+}
+
+TEST(ShadowMesh, DeformedRefusesOtherVertices) {
+    const auto mesh = test::build(test::box());
+    std::vector<glm::vec3> positions(mesh->report().vertices + 1, glm::vec3(0.0F));
+    const auto more = mesh->deformed(positions);
+    ASSERT_FALSE(more);
+    EXPECT_EQ(more.error().code, ErrorCode::InvalidInput);
+    EXPECT_EQ(more.error().message, "The deformed mesh has 9 vertices; the mesh was built from 8.");
+    positions.resize(8);
+    positions[5].y = std::numeric_limits<float>::infinity();
+    const auto infinite = mesh->deformed(positions);
+    ASSERT_FALSE(infinite);
+    EXPECT_EQ(infinite.error().message, "Position 5 of the deformed mesh is not finite.");
 }
 
 TEST(ShadowMesh, EveryMeshHasAnIdOfItsOwn) {

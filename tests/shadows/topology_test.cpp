@@ -15,8 +15,8 @@ namespace gnomon::shadows {
 namespace {
 
 TEST(Topology, AnEdgeIsWhatItsUsesAre) {
-    const FaceUse along{0, 1};
-    const FaceUse back{1, -1};
+    const FaceUse along{0, 0};
+    const FaceUse back{1, 1};
     EXPECT_EQ(edge_kind(std::array{along, back}), EdgeKind::Regular);
     EXPECT_EQ(edge_kind(std::array{along}), EdgeKind::Boundary);
     EXPECT_EQ(edge_kind(std::array{back, back}), EdgeKind::Inconsistent);

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+//
+// A hierarchy of boxes in dual space. The dual of a plane n . x + d = 0 is the point (n, d), that
+// of an edge between two faces the segment between their points, that of a light (p, w) the
+// hyperplane { (n, d) : n . p + d w = 0 }. Which side of that a dual point lies on is which side of
+// the plane the light lies on; a segment that crosses it is a silhouette edge (A. Hertzmann and D.
+// Zorin, "Illustrating Smooth Surfaces", 2000, section 3.2, with planes of faces instead of tangent
+// planes). A box that the hyperplane misses settles all that is in it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <gnomon/shadows/shadow_mesh.hpp>
+
+#include "face_filter.hpp"
+
+namespace gnomon::shadows::internal {
+
+inline constexpr std::size_t block_size = 16;  ///< items (faces or edges) in a leaf
+inline constexpr std::size_t boxes_per_node = 8;
+
+/// Eight boxes, one array a quantity. Bounds are those of the planes as stored; `error` is the
+/// largest error of any of them (FacePlanes::error) and covers what testing the box rounds.
+struct BoxNode {
+    std::array<std::array<float, boxes_per_node>, 4> center{};
+    std::array<std::array<float, boxes_per_node>, 4> half{};
+    std::array<float, boxes_per_node> error{};
+};
+
+/// What a hyperplane does to the eight boxes of a node, one bit each. Neither: it may cross.
+struct BoxSides {
+    std::uint32_t facing = 0;
+    std::uint32_t averted = 0;
+    /// By box that is settled: how far the light is from the nearest plane in it, at least, as
+    /// filter_scalar() has it.
+    std::array<float, boxes_per_node> nearest{};
+};
+[[nodiscard]] BoxSides test_boxes(const BoxNode& node, const FilterLight& light);
+
+/// The bounds of dual points.
+struct DualBounds {
+    std::array<float, 4> low{std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
+                             std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
+    std::array<float, 4> high{
+        std::numeric_limits<float>::lowest(), std::numeric_limits<float>::lowest(),
+        std::numeric_limits<float>::lowest(), std::numeric_limits<float>::lowest()};
+    float error = 0.0F;
+
+    /// A face without area has no plane and adds nothing.
+    void include(const FacePlanes& planes, std::size_t face);
+    void include(const DualBounds& other);
+};
+
+class DualBoxes {
+public:
+    DualBoxes() = default;
+    /// `blocks`: the bounds of items 16 k .. 16 k + 15.
+    explicit DualBoxes(std::vector<DualBounds> blocks);
+
+    [[nodiscard]] std::size_t memory_bytes() const;
+
+    /// Calls settled(first_block, block_count, facing, nearest) for the largest boxes that are, and
+    /// crossed(block) for the blocks that are not, together for every block once, ascending.
+    /// Returns the number of nodes tested. Cost: near the number of boxes that the hyperplane
+    /// crosses.
+    template <class Settled, class Crossed>
+    std::size_t visit(const FilterLight& light, const Settled& settled,
+                      const Crossed& crossed) const {
+        if (levels_.empty()) return 0;
+        std::size_t tested = 0;
+        visit_node(levels_.size() - 1, 0, light, settled, crossed, tested);
+        return tested;
+    }
+
+private:
+    template <class Settled, class Crossed>
+    void visit_node(std::size_t level, std::size_t node, const FilterLight& light,
+                    const Settled& settled, const Crossed& crossed, std::size_t& tested) const {
+        const BoxSides sides = test_boxes(levels_[level][node], light);
+        ++tested;
+        const std::size_t first = node * boxes_per_node;
+        const std::size_t boxes = level == 0 ? blocks_ : levels_[level - 1].size();
+        const std::size_t end = first + boxes_per_node < boxes ? first + boxes_per_node : boxes;
+        for (std::size_t box = first; box < end; ++box) {
+            const std::uint32_t bit = 1U << (box - first);
+            if (((sides.facing | sides.averted) & bit) != 0) {
+                const std::size_t size = std::size_t{1} << (3 * level);
+                const std::size_t begin = box * size;
+                settled(begin, begin + size < blocks_ ? size : blocks_ - begin,
+                        (sides.facing & bit) != 0, sides.nearest[box - first]);
+            } else if (level == 0) {
+                crossed(box);
+            } else {
+                visit_node(level - 1, box, light, settled, crossed, tested);
+            }
+        }
+    }
+
+    std::size_t blocks_ = 0;
+    std::vector<std::vector<BoxNode>> levels_;  ///< level k: eight boxes of 8^k blocks each
+};
+
+}  // namespace gnomon::shadows::internal
