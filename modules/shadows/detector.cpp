@@ -36,10 +36,24 @@ std::size_t internal::memory_of(const Detection& detection) {
            detection.solid_averted.capacity();
 }
 
+const Detection& internal::nothing_of(const ShadowMesh& mesh, Detection& detection) {
+    detection.casting.clear();
+    detection.silhouette.clear();
+    detection.solid_averted.assign(mesh.components().size(), 0);
+    detection.margin = 0.0;
+    detection.changed = true;
+    detection.stats = {};
+    return detection;
+}
+
 std::span<const SilhouetteStrategy> silhouette_strategies() {
-    static constexpr std::array<SilhouetteStrategy, 1> strategies{{
+    static constexpr std::array<SilhouetteStrategy, 3> strategies{{
         {"brute_force", "every face and every edge, one by one, every time", false,
          internal::brute_force_detector},
+        {"simd", "every face and every edge every time, many at once", false,
+         internal::simd_detector},
+        {"dual_bvh", "hierarchies of planes and of edges in dual space: for a light that jumps",
+         false, internal::dual_bvh_detector},
     }};
     return strategies;
 }

@@ -2,6 +2,7 @@
 #include "internal/face_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "internal/face_plane.hpp"
+#include "internal/processor.hpp"
 
 namespace gnomon::shadows::internal {
 
@@ -119,6 +121,103 @@ float filter_simd(const FacePlanes& planes, const FilterLight& light,
 float filter_simd(const FacePlanes& planes, const FilterLight& light,
                   std::span<std::int8_t> sides) {
     return filter_scalar(planes, light, sides);
+}
+
+#endif
+
+void filter_blocks_plain(const FacePlanes& planes, const FilterLight& light,
+                         std::size_t first_block, std::span<FilteredBlock> out) {
+    constexpr std::size_t size = 16;
+    for (std::size_t b = 0; b < out.size(); ++b) {
+        const std::size_t first = (first_block + b) * size;
+        std::array<float, size> values;
+        std::array<float, size> certain;
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::size_t f = first + i;
+            values[i] = planes.normal_x[f] * light.towards.x +
+                        planes.normal_y[f] * light.towards.y +
+                        planes.normal_z[f] * light.towards.z + planes.offset[f] * light.w;
+            certain[i] = std::abs(values[i]) - planes.error[f] * light.reach;
+        }
+        FilteredBlock block{0, 0, infinity};
+        for (std::size_t i = 0; i < size; ++i) {
+            const bool decided = certain[i] > 0.0F && certain[i] <= largest;
+            const bool facing = decided && values[i] > 0.0F;
+            block.decided = static_cast<std::uint16_t>(block.decided | (decided ? 1U << i : 0U));
+            block.facing = static_cast<std::uint16_t>(block.facing | (facing ? 1U << i : 0U));
+            if (decided && certain[i] < block.nearest) block.nearest = certain[i];
+        }
+        out[b] = block;
+    }
+}
+
+#ifdef GNOMON_HAS_AVX2
+
+namespace {
+
+[[gnu::target("avx2")]] void filter_blocks_avx2(const FacePlanes& planes, const FilterLight& light,
+                                                std::size_t first_block,
+                                                std::span<FilteredBlock> out) {
+    const __m256 x = _mm256_set1_ps(light.towards.x);
+    const __m256 y = _mm256_set1_ps(light.towards.y);
+    const __m256 z = _mm256_set1_ps(light.towards.z);
+    const __m256 w = _mm256_set1_ps(light.w);
+    const __m256 reach = _mm256_set1_ps(light.reach);
+    const __m256 sign = _mm256_set1_ps(-0.0F);
+    const __m256 zero = _mm256_setzero_ps();
+    const __m256 most = _mm256_set1_ps(largest);
+    const __m256 unknown = _mm256_set1_ps(infinity);
+    const float* nx = planes.normal_x.data() + first_block * 16;
+    const float* ny = planes.normal_y.data() + first_block * 16;
+    const float* nz = planes.normal_z.data() + first_block * 16;
+    const float* d = planes.offset.data() + first_block * 16;
+    const float* e = planes.error.data() + first_block * 16;
+    for (FilteredBlock& block : out) {
+        __m256 nearest = unknown;
+        unsigned decided_bits = 0;
+        unsigned facing_bits = 0;
+        for (unsigned half = 0; half < 16; half += 8) {
+            const __m256 value = _mm256_add_ps(
+                _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(_mm256_loadu_ps(nx + half), x),
+                                            _mm256_mul_ps(_mm256_loadu_ps(ny + half), y)),
+                              _mm256_mul_ps(_mm256_loadu_ps(nz + half), z)),
+                _mm256_mul_ps(_mm256_loadu_ps(d + half), w));
+            const __m256 certain = _mm256_sub_ps(_mm256_andnot_ps(sign, value),
+                                                 _mm256_mul_ps(_mm256_loadu_ps(e + half), reach));
+            const __m256 decided = _mm256_and_ps(_mm256_cmp_ps(certain, zero, _CMP_GT_OQ),
+                                                 _mm256_cmp_ps(certain, most, _CMP_LE_OQ));
+            const auto bits = static_cast<unsigned>(_mm256_movemask_ps(decided));
+            decided_bits |= bits << half;
+            facing_bits |= (bits & ~static_cast<unsigned>(_mm256_movemask_ps(value))) << half;
+            nearest = _mm256_min_ps(nearest, _mm256_blendv_ps(unknown, certain, decided));
+        }
+        __m128 least =
+            _mm_min_ps(_mm256_castps256_ps128(nearest), _mm256_extractf128_ps(nearest, 1));
+        least = _mm_min_ps(least, _mm_movehl_ps(least, least));
+        least = _mm_min_ss(least, _mm_shuffle_ps(least, least, 1));
+        block = {static_cast<std::uint16_t>(decided_bits), static_cast<std::uint16_t>(facing_bits),
+                 _mm_cvtss_f32(least)};
+        nx += 16;
+        ny += 16;
+        nz += 16;
+        d += 16;
+        e += 16;
+    }
+}
+
+}  // namespace
+
+void filter_blocks(const FacePlanes& planes, const FilterLight& light, std::size_t first_block,
+                   std::span<FilteredBlock> out) {
+    static const bool avx2 = has_avx2();
+    (avx2 ? filter_blocks_avx2 : filter_blocks_plain)(planes, light, first_block, out);
+}
+
+#else
+
+void filter_blocks(const FacePlanes& planes, const FilterLight& light, std::size_t first_block,
+                   std::span<FilteredBlock> out) {
+    filter_blocks_plain(planes, light, first_block, out);
 }
 
 #endif

@@ -4,6 +4,7 @@
 // in two forms that do the same operations on the same numbers.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -30,5 +31,20 @@ float filter_scalar(const FacePlanes& planes, const FilterLight& light,
                     std::span<std::int8_t> sides);
 /// The same, several faces at a time, where the compiler has vectors.
 float filter_simd(const FacePlanes& planes, const FilterLight& light, std::span<std::int8_t> sides);
+
+/// What the filter says of 16 faces, one bit each.
+struct FilteredBlock {
+    std::uint16_t decided = 0;  ///< it is certain
+    std::uint16_t facing = 0;   ///< and the face is towards the light
+    float nearest = 0.0F;       ///< as filter_scalar() returns it, of this block
+};
+/// Blocks first_block .. of 16 faces each, padding included, about which nothing is certain; as
+/// many as `out` has places. The same operations on the same numbers as above, by the widest
+/// vectors that the processor has.
+void filter_blocks(const FacePlanes& planes, const FilterLight& light, std::size_t first_block,
+                   std::span<FilteredBlock> out);
+/// The same face by face: what processors do that have no such vectors.
+void filter_blocks_plain(const FacePlanes& planes, const FilterLight& light,
+                         std::size_t first_block, std::span<FilteredBlock> out);
 
 }  // namespace gnomon::shadows::internal

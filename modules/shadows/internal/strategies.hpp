@@ -10,8 +10,12 @@
 namespace gnomon::shadows::internal {
 
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> brute_force_detector();
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> simd_detector();
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> dual_bvh_detector();
 
 /// The bytes that a detection's lists hold.
 [[nodiscard]] std::size_t memory_of(const Detection& detection);
+/// What a light casts that is not finite.
+const Detection& nothing_of(const ShadowMesh& mesh, Detection& detection);
 
 }  // namespace gnomon::shadows::internal
