@@ -18,6 +18,18 @@
 
 namespace gnomon::shadows {
 
+/// The faces that cast, one bit each: bit f % 64 of word f / 64 is face f. Facing knows no weights
+/// but +1, 0 and -1. Both lists have a word for every 64 faces begun; bits beyond the last face are
+/// 0.
+struct CastingFaces {
+    std::vector<std::uint64_t> plus;   ///< they weigh +1
+    std::vector<std::uint64_t> minus;  ///< they weigh -1
+
+    bool operator==(const CastingFaces&) const = default;
+};
+/// Of Facing::weights. Replaces `casting`. Cost: linear.
+void pack_weights(std::span<const std::int8_t> weights, CastingFaces& casting);
+
 /// Faces [first, first + count) all weigh `weight`, which is not 0.
 struct FaceRun {
     std::uint32_t first = 0;
@@ -26,9 +38,11 @@ struct FaceRun {
     auto operator<=>(const FaceRun&) const = default;
 };
 
-/// Weights by face (Facing::weights) as runs: ascending, and no two that could be one. Replaces
+/// Weights by face, any there are, as runs: ascending, and no two that could be one. Replaces
 /// `runs`. Cost: linear.
 void runs_of(std::span<const std::int8_t> weights, std::vector<FaceRun>& runs);
+/// The same of casting faces. Cost: near the number of runs, plus some steps a word.
+void runs_of(const CastingFaces& casting, std::vector<FaceRun>& runs);
 /// And back. `weights` has a place for each face.
 void weights_of(std::span<const FaceRun> runs, std::span<std::int8_t> weights);
 
@@ -43,7 +57,7 @@ struct DetectionStats {
 
 /// What casts and its boundary: the same for every strategy but for the order of the silhouette.
 struct Detection {
-    std::vector<FaceRun> casting;             ///< as runs_of() makes them of Facing::weights
+    CastingFaces casting;
     std::vector<SilhouetteEdge> silhouette;   ///< in any order, no edge twice
     std::vector<std::uint8_t> solid_averted;  ///< Facing::solid_averted
     /// A margin as Facing::margin, though maybe a smaller one: how far the light may move from

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "internal/face_plane.hpp"
+#include "internal/processor.hpp"
 
 namespace gnomon::shadows::internal {
 
@@ -29,7 +30,7 @@ void set_box(BoxNode& node, std::size_t at, const DualBounds& bounds) {
 
 }  // namespace
 
-BoxSides test_boxes(const BoxNode& node, const FilterLight& light) {
+BoxSides test_boxes_plain(const BoxNode& node, const FilterLight& light) {
     const std::array<float, 4> l{light.towards.x, light.towards.y, light.towards.z, light.w};
     BoxSides result;
     std::array<float, boxes_per_node> values;
@@ -54,6 +55,61 @@ BoxSides test_boxes(const BoxNode& node, const FilterLight& light) {
     }
     return result;
 }
+
+#ifdef GNOMON_HAS_AVX2
+
+namespace {
+
+[[gnu::target("avx2")]] BoxSides test_boxes_avx2(const BoxNode& node, const FilterLight& light) {
+    const __m256 sign = _mm256_set1_ps(-0.0F);
+    const __m256 x = _mm256_set1_ps(light.towards.x);
+    const __m256 y = _mm256_set1_ps(light.towards.y);
+    const __m256 z = _mm256_set1_ps(light.towards.z);
+    const __m256 w = _mm256_set1_ps(light.w);
+    __m256 center[4];
+    __m256 half[4];
+    for (std::size_t d = 0; d < 4; ++d) {
+        center[d] = _mm256_loadu_ps(node.center[d].data());
+        half[d] = _mm256_loadu_ps(node.half[d].data());
+    }
+    const __m256 value = _mm256_add_ps(
+        _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(center[0], x), _mm256_mul_ps(center[1], y)),
+                      _mm256_mul_ps(center[2], z)),
+        _mm256_mul_ps(center[3], w));
+    const __m256 reached = _mm256_add_ps(
+        _mm256_add_ps(
+            _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(half[0], _mm256_andnot_ps(sign, x)),
+                                        _mm256_mul_ps(half[1], _mm256_andnot_ps(sign, y))),
+                          _mm256_mul_ps(half[2], _mm256_andnot_ps(sign, z))),
+            _mm256_mul_ps(half[3], w)),
+        _mm256_mul_ps(_mm256_loadu_ps(node.error.data()), _mm256_set1_ps(light.reach)));
+    const __m256 nearest = _mm256_sub_ps(_mm256_andnot_ps(sign, value), reached);
+    const __m256 settled = _mm256_and_ps(
+        _mm256_cmp_ps(nearest, _mm256_setzero_ps(), _CMP_GT_OQ),
+        _mm256_cmp_ps(nearest, _mm256_set1_ps(std::numeric_limits<float>::max()), _CMP_LE_OQ));
+    const auto settled_bits = static_cast<std::uint32_t>(_mm256_movemask_ps(settled));
+    const auto negative = static_cast<std::uint32_t>(_mm256_movemask_ps(value));
+    BoxSides result;
+    result.facing = settled_bits & ~negative;
+    result.averted = settled_bits & negative;
+    _mm256_storeu_ps(result.nearest.data(), nearest);
+    return result;
+}
+
+}  // namespace
+
+BoxSides test_boxes(const BoxNode& node, const FilterLight& light) {
+    static const bool avx2 = has_avx2();
+    return (avx2 ? test_boxes_avx2 : test_boxes_plain)(node, light);
+}
+
+#else
+
+BoxSides test_boxes(const BoxNode& node, const FilterLight& light) {
+    return test_boxes_plain(node, light);
+}
+
+#endif
 
 void DualBounds::include(const FacePlanes& planes, std::size_t face) {
     if (is_degenerate(planes, face)) return;

@@ -89,17 +89,23 @@ BlockClassifier::Block BlockClassifier::classify(std::size_t block) const {
 double BlockClassifier::classify_all(FaceSides& sides) const {
     const std::size_t blocks = (mesh_.faces().size() + block_size - 1) / block_size;
     double margin = std::numeric_limits<double>::infinity();
+    float nearest = std::numeric_limits<float>::infinity();
     std::array<FilteredBlock, 64> filtered;
     for (std::size_t first = 0; first < blocks; first += filtered.size()) {
         const std::span part = std::span(filtered).first(std::min(filtered.size(), blocks - first));
         filter_blocks(mesh_.planes(), filtered_, first, part);
         for (std::size_t i = 0; i < part.size(); ++i) {
+            if (part[i].decided == 0xFFFF) {
+                sides.set_block(first + i, part[i].facing, 0);
+                nearest = part[i].nearest < nearest ? part[i].nearest : nearest;
+                continue;
+            }
             const Block block = finish(first + i, part[i]);
             sides.set_block(first + i, block.facing, block.edge_on);
             margin = std::min(margin, block.margin);
         }
     }
-    return margin;
+    return std::min(margin, margin_of(nearest));
 }
 
 }  // namespace gnomon::shadows::internal

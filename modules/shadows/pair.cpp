@@ -48,7 +48,7 @@ const Detection& detect_flattened(const CasterState& caster, const LightState& l
     classify_faces_flattened(mesh, parent_from_local, world - glm::dvec4(world.w * origin, 0.0),
                              facing);
     Detection& found = scratch.flattened;
-    runs_of(facing.weights, found.casting);
+    pack_weights(facing.weights, found.casting);
     find_silhouette(mesh, facing.weights, found.silhouette);
     found.solid_averted = facing.solid_averted;
     found.margin = facing.margin;
@@ -79,7 +79,8 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
 
     auto volume = std::make_shared<Volume>();
     scratch.weights.resize(mesh.faces().size());
-    weights_of(found.casting, scratch.weights);
+    runs_of(found.casting, scratch.runs);
+    weights_of(scratch.runs, scratch.weights);
     build_volume(mesh, scratch.weights, found.silhouette, light.light.position_world.w == 0.0,
                  far_vertices, *volume, found.solid_averted);
     pair.mesh = caster.caster.mesh;

@@ -46,8 +46,8 @@ void require_closed_volumes(const ShadowMesh& mesh, const Facing& facing, bool d
 void require_equal_strategies(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) {
     Facing facing;
     classify_faces(mesh, light, facing, near_caps);
-    std::vector<FaceRun> casting;
-    runs_of(facing.weights, casting);
+    CastingFaces casting;
+    pack_weights(facing.weights, casting);
     std::vector<SilhouetteEdge> silhouette;
     find_silhouette(mesh, facing.weights, silhouette);
     std::ranges::sort(silhouette);

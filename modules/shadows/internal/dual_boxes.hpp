@@ -41,6 +41,8 @@ struct BoxSides {
     std::array<float, boxes_per_node> nearest{};
 };
 [[nodiscard]] BoxSides test_boxes(const BoxNode& node, const FilterLight& light);
+/// The same box by box: what processors do that have no such vectors.
+[[nodiscard]] BoxSides test_boxes_plain(const BoxNode& node, const FilterLight& light);
 
 /// The bounds of dual points.
 struct DualBounds {

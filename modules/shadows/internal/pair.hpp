@@ -80,6 +80,7 @@ struct Scratch {
     std::unique_ptr<SilhouetteDetector> detector;  ///< of a strategy that keeps no state
     Facing facing;                                 ///< of singular poses
     Detection flattened;
+    std::vector<FaceRun> runs;
     std::vector<std::int8_t> weights;
 };
 

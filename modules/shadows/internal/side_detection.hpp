@@ -45,14 +45,18 @@ inline SilhouetteEdge silhouette_edge(const Edge& edge, std::int32_t count) {
                      : SilhouetteEdge{edge.high, edge.low, -count};
 }
 
-/// Replaces `runs`. Cost: near the number of runs, plus a word for 64 faces.
-void casting_runs(const ShadowMesh& mesh, const Sides& sides, std::vector<FaceRun>& runs);
+/// Replaces `casting`. Cost: some steps for 64 faces.
+void find_casting(const ShadowMesh& mesh, const Sides& sides, CastingFaces& casting);
 
 /// Of the regular edges [first, first + count): those whose two faces have different bits, by place
 /// in that range. `count` is 64 at most.
 [[nodiscard]] std::uint64_t differing_edges(std::span<const FaceUse> uses, std::size_t first,
                                             std::size_t count,
                                             std::span<const std::uint64_t> facing);
+/// The same one by one: what processors do that cannot gather.
+[[nodiscard]] std::uint64_t differing_edges_plain(std::span<const FaceUse> uses, std::size_t first,
+                                                  std::size_t count,
+                                                  std::span<const std::uint64_t> facing);
 
 /// Calls visit(edge, count) for the silhouette edges among the regular edges [first, first + count)
 /// that have no edge-on face. Adds to `tested`.

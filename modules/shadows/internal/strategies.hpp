@@ -12,6 +12,7 @@ namespace gnomon::shadows::internal {
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> brute_force_detector();
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> simd_detector();
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> dual_bvh_detector();
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> certificates_detector();
 
 /// The bytes that a detection's lists hold.
 [[nodiscard]] std::size_t memory_of(const Detection& detection);

@@ -11,7 +11,7 @@ class BruteForce final : public SilhouetteDetector {
 public:
     const Detection& detect(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) override {
         classify_faces(mesh, light, facing_, near_caps, FacingFilter::Scalar);
-        runs_of(facing_.weights, found_.casting);
+        pack_weights(facing_.weights, found_.casting);
         find_silhouette(mesh, facing_.weights, found_.silhouette);
         found_.solid_averted = facing_.solid_averted;
         found_.margin = facing_.margin;

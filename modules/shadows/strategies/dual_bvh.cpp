@@ -27,7 +27,7 @@ public:
                      [&](std::size_t, std::size_t, double margin) {
                          found_.margin = std::min(found_.margin, margin);
                      });
-        casting_runs(mesh, sides_, found_.casting);
+        find_casting(mesh, sides_, found_.casting);
         found_.silhouette.clear();
         const auto edges = mesh.edges();
         search_edges(mesh, sides_, classifier.light(), found_.stats,

@@ -21,7 +21,7 @@ public:
         sides_.faces.resize(mesh.faces().size());
         const BlockClassifier classifier(mesh, light, found_.stats);
         found_.margin = std::min(classifier.classify_all(sides_.faces), sides_.castings.margin);
-        casting_runs(mesh, sides_, found_.casting);
+        find_casting(mesh, sides_, found_.casting);
 
         found_.silhouette.clear();
         const auto edges = mesh.edges();

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+//
+// Exact temporal coherence. A block of faces that was decided with the margin m when the light had
+// come the way p is not looked at again before the way p + m: no face of it can have changed, by
+// the triangle inequality. What is due is decided anew, and each face that flips changes three
+// edges. A step in which much is due is a search like dual_bvh's, whose settled boxes are
+// certificates as well, so that no frame costs much more than that. The way grows only by steps
+// that something is due in: a light that trembles about a place costs nothing.
+//
+// A kinetic data structure (J. Basch, L. Guibas and J. Hershberger, "Data Structures for Mobile
+// Data", 1999), whose certificates hold for any motion instead of a known one; near to M. Pop, C.
+// Duncan, G. Barequet, M. Goodrich, W. Huang and S. Kumar, "Efficient Perspective-Accurate
+// Silhouette Computation and Applications" (2001).
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "internal/deadlines.hpp"
+#include "internal/displacement.hpp"
+#include "internal/finite.hpp"
+#include "internal/side_detection.hpp"
+#include "internal/silhouette_set.hpp"
+#include "internal/strategies.hpp"
+
+namespace gnomon::shadows::internal {
+
+namespace {
+
+// Never less than the exact sum, so that no certificate is trusted too long.
+double sum_up(double a, double b) {
+    return (a + b) * (1.0 + std::numeric_limits<double>::epsilon());
+}
+double sum_down(double a, double b) {
+    return (a + b) * (1.0 - std::numeric_limits<double>::epsilon());
+}
+
+class Certificates final : public SilhouetteDetector {
+public:
+    const Detection& detect(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) override {
+        if (!is_finite(light.position)) {
+            mesh_ = 0;
+            return nothing_of(mesh, found_);
+        }
+        found_.stats = {};
+        if (mesh_ != mesh.id() || near_caps_ != near_caps ||
+            light_.is_directional() != light.is_directional()) {
+            search(mesh, light, near_caps);
+            return found_;
+        }
+        const double way = sum_up(way_, displacement(light_, light));
+        found_.changed = false;
+        if (way > std::min(deadlines_.next(), castings_deadline_)) {
+            // Searching costs less than deciding a large part block by block.
+            const std::size_t many = deadlines_.values().size() / 8 + 1;
+            if (!(way < std::numeric_limits<double>::max()) ||
+                deadlines_.count_due(way, many) > many) {
+                search(mesh, light, near_caps);
+                return found_;
+            }
+            way_ = way;
+            light_ = light;
+            renew(mesh);
+        }
+        found_.margin =
+            std::max(0.0, sum_down(std::min(deadlines_.next(), castings_deadline_), -way));
+        return found_;
+    }
+
+    [[nodiscard]] std::size_t memory_bytes() const override {
+        return sizeof *this + sides_.memory_bytes() + memory_of(found_) +
+               silhouette_.memory_bytes() + deadlines_.memory_bytes() +
+               flipped_.capacity() * sizeof(std::uint32_t);
+    }
+
+private:
+    void search(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps);
+    void renew(const ShadowMesh& mesh);
+    bool renew_castings(const ShadowMesh& mesh);
+    void find_whole_silhouette(const ShadowMesh& mesh, const FilterLight& light);
+
+    std::uint64_t mesh_ = 0;  // 0: nothing is known
+    NearCaps near_caps_ = NearCaps::Facing;
+    LightLocal light_;     // where the light was when something was due last
+    double way_ = 0.0;     // that it had come
+    Deadlines deadlines_;  // by block of faces
+    double castings_deadline_ = 0.0;
+    Sides sides_;
+    Detection found_;
+    SilhouetteSet silhouette_{found_.silhouette};
+    std::vector<std::uint32_t> flipped_;
+};
+
+void Certificates::search(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) {
+    if (mesh_ != mesh.id()) {
+        deadlines_.resize((mesh.faces().size() + block_size - 1) / block_size);
+        sides_.faces.resize(mesh.faces().size());
+    }
+    mesh_ = mesh.id();
+    near_caps_ = near_caps;
+    light_ = light;
+    way_ = 0.0;
+    found_.changed = true;
+    find_castings(mesh, light, near_caps, sides_.castings, found_.solid_averted);
+    castings_deadline_ = sides_.castings.margin;
+    const BlockClassifier classifier(mesh, light, found_.stats);
+    const std::span<double> deadlines = deadlines_.values();
+    search_faces(mesh, classifier, sides_.faces, found_.stats,
+                 [&](std::size_t first, std::size_t count, double margin) {
+                     std::ranges::fill(deadlines.subspan(first, count), margin);
+                 });
+    deadlines_.rebuild();
+    find_casting(mesh, sides_, found_.casting);
+    find_whole_silhouette(mesh, classifier.light());
+    found_.margin = std::min(deadlines_.next(), castings_deadline_);
+}
+
+void Certificates::find_whole_silhouette(const ShadowMesh& mesh, const FilterLight& light) {
+    const auto edges = mesh.edges();
+    silhouette_.clear(edges.size());
+    search_edges(mesh, sides_, light, found_.stats, [&](std::size_t edge, std::int32_t count) {
+        silhouette_.add(edge, silhouette_edge(edges[edge], count));
+    });
+}
+
+bool Certificates::renew_castings(const ShadowMesh& mesh) {
+    const std::vector<Casting> before = sides_.castings.of_component;
+    const std::vector<std::uint8_t> averted_before = found_.solid_averted;
+    find_castings(mesh, light_, near_caps_, sides_.castings, found_.solid_averted);
+    castings_deadline_ = sum_down(way_, sides_.castings.margin);
+    return sides_.castings.of_component != before || found_.solid_averted != averted_before;
+}
+
+void Certificates::renew(const ShadowMesh& mesh) {
+    flipped_.clear();
+    const BlockClassifier classifier(mesh, light_, found_.stats);
+    FaceSides& sides = sides_.faces;
+    std::size_t blocks = 0;
+    deadlines_.renew_due(way_, [&](std::size_t block) {
+        const BlockClassifier::Block decided = classifier.classify(block);
+        const std::uint32_t differing = (decided.facing ^ sides.facing_block(block)) |
+                                        (decided.edge_on ^ sides.edge_on_block(block));
+        for (std::uint32_t rest = differing; rest != 0; rest &= rest - 1) {
+            flipped_.push_back(static_cast<std::uint32_t>(
+                block * block_size + static_cast<std::size_t>(std::countr_zero(rest))));
+        }
+        if (differing != 0) sides.set_block(block, decided.facing, decided.edge_on);
+        ++blocks;
+        return sum_down(way_, decided.margin);
+    });
+    found_.stats.faces_tested = blocks * block_size;
+    found_.stats.bytes_touched = blocks * block_size * bytes_per_face_test;
+    const bool recast = castings_deadline_ < way_ && renew_castings(mesh);
+    if (!recast && flipped_.empty()) return;
+
+    found_.changed = true;
+    if (recast || flipped_.size() > mesh.faces().size() / 16 + 16) {
+        find_casting(mesh, sides_, found_.casting);
+        find_whole_silhouette(mesh, classifier.light());
+        return;
+    }
+    const auto edges = mesh.edges();
+    for (const std::uint32_t face : flipped_) {
+        const int weight = sides_.weight(mesh, face);
+        const std::uint64_t bit = std::uint64_t{1} << (face % 64);
+        std::uint64_t& plus = found_.casting.plus[face / 64];
+        std::uint64_t& minus = found_.casting.minus[face / 64];
+        plus = weight > 0 ? plus | bit : plus & ~bit;
+        minus = weight < 0 ? minus | bit : minus & ~bit;
+        for (const std::uint32_t edge : mesh.face_edges()[face]) {
+            if (edge == ShadowMesh::no_edge) continue;
+            silhouette_.set(edge, silhouette_edge(edges[edge], sides_.count(mesh, edge)));
+        }
+    }
+    found_.stats.edges_tested = 3 * flipped_.size();
+    found_.stats.bytes_touched += found_.stats.edges_tested * (sizeof(Edge) + bytes_per_edge_test);
+}
+
+}  // namespace
+
+std::unique_ptr<SilhouetteDetector> certificates_detector() {
+    return std::make_unique<Certificates>();
+}
+
+}  // namespace gnomon::shadows::internal
