@@ -39,24 +39,18 @@ void Deadlines::rebuild() {
     next_ = least(levels_.back());
 }
 
-std::size_t Deadlines::count_due(double time, std::size_t limit) const {
-    std::size_t count = 0;
-    if (next_ < time) count_node(levels_.size() - 1, 0, time, limit, count);
-    return count;
-}
-
-void Deadlines::count_node(std::size_t level, std::size_t node, double time, std::size_t limit,
-                           std::size_t& count) const {
-    const std::vector<double>& values = levels_[level];
-    const std::size_t end = std::min((node + 1) * fan, values.size());
-    for (std::size_t i = node * fan; i < end && count <= limit; ++i) {
-        if (!(values[i] < time)) continue;
-        if (level == 0) {
-            ++count;
-        } else {
-            count_node(level - 1, i, time, limit, count);
+void Deadlines::renew(std::span<const std::uint32_t> things) {
+    std::size_t size = fan;
+    for (std::size_t level = 1; level < levels_.size(); ++level, size *= fan) {
+        std::size_t last = levels_[level].size();
+        for (const std::uint32_t thing : things) {
+            const std::size_t node = thing / size;
+            if (node == last) continue;
+            levels_[level][node] = least(children(level - 1, node));
+            last = node;
         }
     }
+    next_ = least(levels_.back());
 }
 
 std::size_t Deadlines::memory_bytes() const {

@@ -12,10 +12,17 @@
 namespace gnomon::shadows::internal {
 
 void FaceSides::resize(std::size_t faces) {
+    if (faces == faces_ && !facing_.empty()) return;
     faces_ = faces;
-    // One word more, so that sixteen bits at a time may be read anywhere.
+    // One word more, so that any bit may be read with its neighbours.
     facing_.assign(faces / 64 + 1, 0);
     edge_on_.assign(faces / 64 + 1, 0);
+}
+
+bool FaceSides::any_edge_on() const {
+    std::uint64_t any = 0;
+    for (const std::uint64_t word : edge_on_) any |= word;
+    return any != 0;
 }
 
 void FaceSides::set_blocks(std::size_t first, std::size_t count, bool facing) {

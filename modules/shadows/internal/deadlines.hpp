@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -15,19 +16,18 @@ namespace gnomon::shadows::internal {
 class Deadlines {
 public:
     void resize(std::size_t count);
-    /// By thing; rebuild() after writing.
+    /// By thing. rebuild() or renew() after writing.
     [[nodiscard]] std::span<double> values() { return levels_[0]; }
     void rebuild();
+    /// The same where only these things have other deadlines; ascending.
+    void renew(std::span<const std::uint32_t> things);
 
     /// Infinite where there is nothing.
     [[nodiscard]] double next() const { return next_; }
-    /// How many are due before `time`, or some number above `limit` where there are more than that.
-    [[nodiscard]] std::size_t count_due(double time, std::size_t limit) const;
-
-    /// For every one that is due before `time`, ascending: its new deadline is renew(thing).
-    template <class Renew>
-    void renew_due(double time, const Renew& renew) {
-        if (next_ < time) next_ = renew_node(levels_.size() - 1, 0, time, renew);
+    /// Calls visit(thing) for every one that is due before `time`, ascending.
+    template <class Visit>
+    void visit_due(double time, const Visit& visit) const {
+        if (next_ < time) visit_node(levels_.size() - 1, 0, time, visit);
     }
 
     [[nodiscard]] std::size_t memory_bytes() const;
@@ -36,22 +36,22 @@ private:
     static constexpr std::size_t fan = 16;
 
     [[nodiscard]] static double least(std::span<const double> values);
-    [[nodiscard]] std::span<double> children(std::size_t level, std::size_t node) {
+    [[nodiscard]] std::span<const double> children(std::size_t level, std::size_t node) const {
         const std::span all(levels_[level]);
         return all.subspan(node * fan, std::min(fan, all.size() - node * fan));
     }
-    template <class Renew>
-    double renew_node(std::size_t level, std::size_t node, double time, const Renew& renew) {
-        const std::span<double> values = children(level, node);
+    template <class Visit>
+    void visit_node(std::size_t level, std::size_t node, double time, const Visit& visit) const {
+        const std::span<const double> values = children(level, node);
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (!(values[i] < time)) continue;
-            const std::size_t child = node * fan + i;
-            values[i] = level == 0 ? renew(child) : renew_node(level - 1, child, time, renew);
+            if (level == 0) {
+                visit(node * fan + i);
+            } else {
+                visit_node(level - 1, node * fan + i, time, visit);
+            }
         }
-        return least(values);
     }
-    void count_node(std::size_t level, std::size_t node, double time, std::size_t limit,
-                    std::size_t& count) const;
 
     std::vector<std::vector<double>> levels_{{}};  ///< level k + 1: the least of 16 each of level k
     double next_ = std::numeric_limits<double>::infinity();

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,7 @@
 #include <gnomon/shadows/shadow_mesh.hpp>
 
 #include "face_filter.hpp"
+#include "processor.hpp"
 
 namespace gnomon::shadows::internal {
 
@@ -67,7 +69,7 @@ public:
     [[nodiscard]] std::size_t memory_bytes() const;
 
     /// Calls settled(first_block, block_count, facing, nearest) for the largest boxes that are, and
-    /// crossed(block) for the blocks that are not, together for every block once, ascending.
+    /// crossed(block) for the blocks that are not, together for every block once.
     /// Returns the number of nodes tested. Cost: near the number of boxes that the hyperplane
     /// crosses.
     template <class Settled, class Crossed>
@@ -87,15 +89,29 @@ private:
         ++tested;
         const std::size_t first = node * boxes_per_node;
         const std::size_t boxes = level == 0 ? blocks_ : levels_[level - 1].size();
-        const std::size_t end = first + boxes_per_node < boxes ? first + boxes_per_node : boxes;
-        for (std::size_t box = first; box < end; ++box) {
-            const std::uint32_t bit = 1U << (box - first);
-            if (((sides.facing | sides.averted) & bit) != 0) {
-                const std::size_t size = std::size_t{1} << (3 * level);
-                const std::size_t begin = box * size;
-                settled(begin, begin + size < blocks_ ? size : blocks_ - begin,
-                        (sides.facing & bit) != 0, sides.nearest[box - first]);
-            } else if (level == 0) {
+        const std::uint32_t there = boxes - first < boxes_per_node ? (1U << (boxes - first)) - 1U
+                                                                   : (1U << boxes_per_node) - 1U;
+        const std::size_t size = std::size_t{1} << (3 * level);
+        for (std::uint32_t rest = (sides.facing | sides.averted) & there; rest != 0;
+             rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            const std::size_t begin = (first + i) * size;
+            settled(begin, begin + size < blocks_ ? size : blocks_ - begin,
+                    ((sides.facing >> i) & 1U) != 0, sides.nearest[i]);
+        }
+        const std::uint32_t open = ~(sides.facing | sides.averted) & there;
+        if (level > 0) {
+            for (std::uint32_t rest = open; rest != 0; rest &= rest - 1) {
+                const auto* child = reinterpret_cast<const std::byte*>(
+                    &levels_[level - 1][first + static_cast<std::size_t>(std::countr_zero(rest))]);
+                for (std::size_t line = 0; line < sizeof(BoxNode); line += 64) {
+                    prefetch(child + line);
+                }
+            }
+        }
+        for (std::uint32_t rest = open; rest != 0; rest &= rest - 1) {
+            const std::size_t box = first + static_cast<std::size_t>(std::countr_zero(rest));
+            if (level == 0) {
                 crossed(box);
             } else {
                 visit_node(level - 1, box, light, settled, crossed, tested);

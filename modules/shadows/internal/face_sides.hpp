@@ -21,6 +21,7 @@ namespace gnomon::shadows::internal {
 /// averted. Bits beyond the last face are 0.
 class FaceSides {
 public:
+    /// What the bits are afterwards is not said.
     void resize(std::size_t faces);
 
     /// +1 facing, 0 edge-on, -1 averted.
@@ -30,6 +31,10 @@ public:
         if (((facing_[word] >> bit) & 1U) != 0) return 1;
         return ((edge_on_[word] >> bit) & 1U) != 0 ? 0 : -1;
     }
+    [[nodiscard]] bool is_facing(std::size_t face) const {
+        return ((facing_[face / 64] >> (face % 64)) & 1U) != 0;
+    }
+    [[nodiscard]] bool any_edge_on() const;
     [[nodiscard]] std::span<const std::uint64_t> facing() const { return facing_; }
     [[nodiscard]] std::span<const std::uint64_t> edge_on() const { return edge_on_; }
 
@@ -77,6 +82,16 @@ public:
         double margin = 0.0;
     };
     [[nodiscard]] Block classify(std::size_t block) const;
+    /// Has the planes of a block fetched, which is classified soon.
+    void prefetch_block(std::size_t block) const {
+        const FacePlanes& planes = mesh_.planes();
+        const std::size_t first = block * block_size;
+        prefetch(&planes.normal_x[first]);
+        prefetch(&planes.normal_y[first]);
+        prefetch(&planes.normal_z[first]);
+        prefetch(&planes.offset[first]);
+        prefetch(&planes.error[first]);
+    }
     /// All blocks, in turn. Returns the smallest margin.
     double classify_all(FaceSides& sides) const;
 

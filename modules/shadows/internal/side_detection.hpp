@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -48,36 +49,71 @@ inline SilhouetteEdge silhouette_edge(const Edge& edge, std::int32_t count) {
 /// Replaces `casting`. Cost: some steps for 64 faces.
 void find_casting(const ShadowMesh& mesh, const Sides& sides, CastingFaces& casting);
 
-/// Of the regular edges [first, first + count): those whose two faces have different bits, by place
-/// in that range. `count` is 64 at most.
-[[nodiscard]] std::uint64_t differing_edges(std::span<const FaceUse> uses, std::size_t first,
-                                            std::size_t count,
-                                            std::span<const std::uint64_t> facing);
+/// Of the regular edges [first, first + count): writes those whose two faces have different bits to
+/// `out`, ascending, and returns how many. `out` has room for eight more than `count`.
+[[nodiscard]] std::size_t differing_edges(std::span<const FaceUse> uses, std::size_t first,
+                                          std::size_t count, std::span<const std::uint64_t> facing,
+                                          std::uint32_t* out);
 /// The same one by one: what processors do that cannot gather.
-[[nodiscard]] std::uint64_t differing_edges_plain(std::span<const FaceUse> uses, std::size_t first,
-                                                  std::size_t count,
-                                                  std::span<const std::uint64_t> facing);
+[[nodiscard]] std::size_t differing_edges_plain(std::span<const FaceUse> uses, std::size_t first,
+                                                std::size_t count,
+                                                std::span<const std::uint64_t> facing,
+                                                std::uint32_t* out);
 
-/// Calls visit(edge, count) for the silhouette edges among the regular edges [first, first + count)
-/// that have no edge-on face. Adds to `tested`.
+/// Finds the silhouette edges among regular ones that have no edge-on face, some at a time: first
+/// which edges differ, then what they count, so that neither loop waits for the other.
 template <class Visit>
-void visit_regular(const ShadowMesh& mesh, const Sides& sides, std::size_t first, std::size_t count,
-                   std::uint64_t& tested, const Visit& visit) {
-    const auto uses = mesh.uses();
-    tested += count;
-    for (std::size_t end = first + count; first < end; first += 64) {
-        std::uint64_t differing = differing_edges(
-            uses, first, std::min<std::size_t>(64, end - first), sides.faces.facing());
-        for (; differing != 0; differing &= differing - 1) {
-            const std::size_t edge = first + static_cast<std::size_t>(std::countr_zero(differing));
-            const std::uint32_t a = uses[2 * edge].face;
-            const std::uint32_t b = uses[2 * edge + 1].face;
-            if (sides.faces.side(a) == 0 || sides.faces.side(b) == 0) continue;
-            const std::int32_t sum = sides.weight(mesh, a) - sides.weight(mesh, b);
-            if (sum != 0) visit(edge, sum);
+class RegularEdges {
+public:
+    RegularEdges(const ShadowMesh& mesh, const Sides& sides, const Visit& visit)
+        : uses_(mesh.uses()), mesh_(mesh), sides_(sides), visit_(visit) {
+        const Castings& castings = sides.castings;
+        plain_ = castings.uniform && !sides.faces.any_edge_on();
+        if (plain_ && !castings.of_component.empty()) {
+            step_ = castings.of_component[0][2] - castings.of_component[0][0];
         }
     }
-}
+    /// Edges [first, first + count), of which there are no more than `most`. visit(edge, count) is
+    /// called for them now or by finish().
+    static constexpr std::size_t most = 1024;
+    void add(std::size_t first, std::size_t count) {
+        if (found_ + count > most) flush();
+        tested_ += count;
+        found_ += differing_edges(uses_, first, count, sides_.faces.facing(), ids_.data() + found_);
+    }
+    /// Returns how many edges were looked at.
+    std::uint64_t finish() {
+        flush();
+        return tested_;
+    }
+
+private:
+    void flush() {
+        for (std::size_t i = 0; i < found_; ++i) {
+            const std::size_t edge = ids_[i];
+            const std::uint32_t a = uses_[2 * edge].face;
+            if (plain_) {
+                visit_(edge, sides_.faces.is_facing(a) ? step_ : -step_);
+                continue;
+            }
+            const std::uint32_t b = uses_[2 * edge + 1].face;
+            if (sides_.faces.side(a) == 0 || sides_.faces.side(b) == 0) continue;
+            const std::int32_t sum = sides_.weight(mesh_, a) - sides_.weight(mesh_, b);
+            if (sum != 0) visit_(edge, sum);
+        }
+        found_ = 0;
+    }
+
+    std::span<const FaceUse> uses_;
+    const ShadowMesh& mesh_;
+    const Sides& sides_;
+    const Visit& visit_;
+    bool plain_ = false;
+    std::int32_t step_ = 0;
+    std::uint64_t tested_ = 0;
+    std::size_t found_ = 0;
+    std::array<std::uint32_t, most + 8> ids_;
+};
 
 /// And for the others: the regular edges of edge-on faces, and edges that are not regular.
 template <class Visit>
@@ -113,11 +149,13 @@ inline constexpr std::uint64_t bytes_per_edge_test = 2 * sizeof(FaceUse);
 
 /// Decides all faces by the hierarchy of boxes. Calls settled(first_block, block_count, margin) for
 /// pieces that together are all of them: no face of a piece changes its side while the light moves
-/// no further than that (Facing::margin).
+/// no further than that (Facing::margin). `crossed`: room for a list, afterwards that of the blocks
+/// that no box settled.
 template <class Settled>
 void search_faces(const ShadowMesh& mesh, const BlockClassifier& classifier, FaceSides& sides,
-                  DetectionStats& stats, const Settled& settled) {
-    std::size_t crossed = 0;
+                  std::vector<std::uint32_t>& crossed, DetectionStats& stats,
+                  const Settled& settled) {
+    crossed.clear();
     const std::size_t nodes = tables_of(mesh).faces.visit(
         classifier.light(),
         [&](std::size_t first, std::size_t count, bool facing, float nearest) {
@@ -125,28 +163,40 @@ void search_faces(const ShadowMesh& mesh, const BlockClassifier& classifier, Fac
             settled(first, count, classifier.margin_of(nearest));
         },
         [&](std::size_t block) {
-            const BlockClassifier::Block found = classifier.classify(block);
-            sides.set_block(block, found.facing, found.edge_on);
-            settled(block, 1, found.margin);
-            ++crossed;
+            classifier.prefetch_block(block);
+            crossed.push_back(static_cast<std::uint32_t>(block));
         });
+    for (const std::uint32_t block : crossed) {
+        const BlockClassifier::Block found = classifier.classify(block);
+        sides.set_block(block, found.facing, found.edge_on);
+        settled(block, 1, found.margin);
+    }
     for (const std::uint32_t face : tables_of(mesh).degenerate_faces) sides.set_edge_on(face);
-    stats.faces_tested += crossed * block_size;
-    stats.bytes_touched += nodes * sizeof(BoxNode) + crossed * block_size * bytes_per_face_test;
+    stats.faces_tested += crossed.size() * block_size;
+    stats.bytes_touched +=
+        nodes * sizeof(BoxNode) + crossed.size() * block_size * bytes_per_face_test;
 }
 
-/// Calls visit(edge, count) for every silhouette edge, once. `sides` are complete.
+/// Calls visit(edge, count) for every silhouette edge, once. `sides` are complete. `crossed`: as
+/// above, of edges.
 template <class Visit>
 void search_edges(const ShadowMesh& mesh, const Sides& sides, const FilterLight& light,
-                  DetectionStats& stats, const Visit& visit) {
-    std::uint64_t tested = 0;
+                  std::vector<std::uint32_t>& crossed, DetectionStats& stats, const Visit& visit) {
+    crossed.clear();
+    RegularEdges regular(mesh, sides, visit);
     const std::size_t nodes = tables_of(mesh).edges.visit(
         light, [](std::size_t, std::size_t, bool, float) {},
         [&](std::size_t block) {
-            const std::size_t first = block * block_size;
-            visit_regular(mesh, sides, first, std::min(block_size, mesh.regular_edges() - first),
-                          tested, visit);
+            const FaceUse* uses = mesh.uses().data() + 2 * block_size * block;
+            prefetch(uses);
+            prefetch(uses + block_size);
+            crossed.push_back(static_cast<std::uint32_t>(block));
         });
+    for (const std::uint32_t block : crossed) {
+        const std::size_t first = block * block_size;
+        regular.add(first, std::min(block_size, mesh.regular_edges() - first));
+    }
+    std::uint64_t tested = regular.finish();
     visit_others(mesh, sides, tested, visit);
     stats.edges_tested += tested;
     stats.bytes_touched += nodes * sizeof(BoxNode) + tested * bytes_per_edge_test;

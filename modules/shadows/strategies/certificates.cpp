@@ -12,6 +12,7 @@
 // Duncan, G. Barequet, M. Goodrich, W. Huang and S. Kumar, "Efficient Perspective-Accurate
 // Silhouette Computation and Applications" (2001).
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 
@@ -34,6 +35,19 @@ double sum_down(double a, double b) {
     return (a + b) * (1.0 - std::numeric_limits<double>::epsilon());
 }
 
+// Of some of the values: so small that about `count` of all are below.
+double quantile(std::span<const double> values, std::size_t count) {
+    constexpr std::size_t most = 256;
+    std::array<double, most> sample;
+    const std::size_t size = std::min(most, values.size());
+    if (size == 0) return 0.0;
+    for (std::size_t i = 0; i < size; ++i) sample[i] = values[i * values.size() / size];
+    const std::size_t rank = std::min(size - 1, count * size / values.size());
+    const auto at = sample.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(sample.begin(), at, sample.begin() + static_cast<std::ptrdiff_t>(size));
+    return *at;
+}
+
 class Certificates final : public SilhouetteDetector {
 public:
     const Detection& detect(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) override {
@@ -50,15 +64,13 @@ public:
         const double way = sum_up(way_, displacement(light_, light));
         found_.changed = false;
         if (way > std::min(deadlines_.next(), castings_deadline_)) {
-            // Searching costs less than deciding a large part block by block.
-            const std::size_t many = deadlines_.values().size() / 8 + 1;
-            if (!(way < std::numeric_limits<double>::max()) ||
-                deadlines_.count_due(way, many) > many) {
+            const bool far = !(way - way_ < far_);
+            way_ = way;
+            light_ = light;
+            if (far) {
                 search(mesh, light, near_caps);
                 return found_;
             }
-            way_ = way;
-            light_ = light;
             renew(mesh);
         }
         found_.margin =
@@ -69,7 +81,7 @@ public:
     [[nodiscard]] std::size_t memory_bytes() const override {
         return sizeof *this + sides_.memory_bytes() + memory_of(found_) +
                silhouette_.memory_bytes() + deadlines_.memory_bytes() +
-               flipped_.capacity() * sizeof(std::uint32_t);
+               (flipped_.capacity() + blocks_.capacity()) * sizeof(std::uint32_t);
     }
 
 private:
@@ -88,6 +100,9 @@ private:
     Detection found_;
     SilhouetteSet silhouette_{found_.silhouette};
     std::vector<std::uint32_t> flipped_;
+    std::vector<std::uint32_t> blocks_;  // searched, or due
+    // Beyond this way a search costs less than renewing what is due, as far as can be told.
+    double far_ = 0.0;
 };
 
 void Certificates::search(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) {
@@ -104,11 +119,12 @@ void Certificates::search(const ShadowMesh& mesh, LightLocal light, NearCaps nea
     castings_deadline_ = sides_.castings.margin;
     const BlockClassifier classifier(mesh, light, found_.stats);
     const std::span<double> deadlines = deadlines_.values();
-    search_faces(mesh, classifier, sides_.faces, found_.stats,
+    search_faces(mesh, classifier, sides_.faces, blocks_, found_.stats,
                  [&](std::size_t first, std::size_t count, double margin) {
                      std::ranges::fill(deadlines.subspan(first, count), margin);
                  });
     deadlines_.rebuild();
+    far_ = quantile(deadlines, blocks_.size());
     find_casting(mesh, sides_, found_.casting);
     find_whole_silhouette(mesh, classifier.light());
     found_.margin = std::min(deadlines_.next(), castings_deadline_);
@@ -117,9 +133,10 @@ void Certificates::search(const ShadowMesh& mesh, LightLocal light, NearCaps nea
 void Certificates::find_whole_silhouette(const ShadowMesh& mesh, const FilterLight& light) {
     const auto edges = mesh.edges();
     silhouette_.clear(edges.size());
-    search_edges(mesh, sides_, light, found_.stats, [&](std::size_t edge, std::int32_t count) {
-        silhouette_.add(edge, silhouette_edge(edges[edge], count));
-    });
+    search_edges(mesh, sides_, light, blocks_, found_.stats,
+                 [&](std::size_t edge, std::int32_t count) {
+                     silhouette_.add(edge, silhouette_edge(edges[edge], count));
+                 });
 }
 
 bool Certificates::renew_castings(const ShadowMesh& mesh) {
@@ -132,10 +149,14 @@ bool Certificates::renew_castings(const ShadowMesh& mesh) {
 
 void Certificates::renew(const ShadowMesh& mesh) {
     flipped_.clear();
+    blocks_.clear();
     const BlockClassifier classifier(mesh, light_, found_.stats);
+    deadlines_.visit_due(way_, [&](std::size_t block) {
+        classifier.prefetch_block(block);
+        blocks_.push_back(static_cast<std::uint32_t>(block));
+    });
     FaceSides& sides = sides_.faces;
-    std::size_t blocks = 0;
-    deadlines_.renew_due(way_, [&](std::size_t block) {
+    for (const std::uint32_t block : blocks_) {
         const BlockClassifier::Block decided = classifier.classify(block);
         const std::uint32_t differing = (decided.facing ^ sides.facing_block(block)) |
                                         (decided.edge_on ^ sides.edge_on_block(block));
@@ -144,11 +165,11 @@ void Certificates::renew(const ShadowMesh& mesh) {
                 block * block_size + static_cast<std::size_t>(std::countr_zero(rest))));
         }
         if (differing != 0) sides.set_block(block, decided.facing, decided.edge_on);
-        ++blocks;
-        return sum_down(way_, decided.margin);
-    });
-    found_.stats.faces_tested = blocks * block_size;
-    found_.stats.bytes_touched = blocks * block_size * bytes_per_face_test;
+        deadlines_.values()[block] = sum_down(way_, decided.margin);
+    }
+    deadlines_.renew(blocks_);
+    found_.stats.faces_tested = blocks_.size() * block_size;
+    found_.stats.bytes_touched = blocks_.size() * block_size * bytes_per_face_test;
     const bool recast = castings_deadline_ < way_ && renew_castings(mesh);
     if (!recast && flipped_.empty()) return;
 

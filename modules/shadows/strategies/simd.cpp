@@ -28,10 +28,14 @@ public:
         const auto add = [&](std::size_t edge, std::int32_t count) {
             found_.silhouette.push_back(silhouette_edge(edges[edge], count));
         };
-        std::uint64_t& tested = found_.stats.edges_tested;
-        visit_regular(mesh, sides_, 0, mesh.regular_edges(), tested, add);
+        RegularEdges regular(mesh, sides_, add);
+        for (std::size_t first = 0; first < mesh.regular_edges(); first += regular.most) {
+            regular.add(first, std::min(regular.most, mesh.regular_edges() - first));
+        }
+        std::uint64_t tested = regular.finish();
         visit_others(mesh, sides_, tested, add);
         found_.stats.faces_tested = mesh.faces().size();
+        found_.stats.edges_tested = tested;
         found_.stats.bytes_touched =
             mesh.faces().size() * bytes_per_face_test + tested * bytes_per_edge_test;
         return found_;
