@@ -8,12 +8,7 @@ DetectionTables make_tables(const ShadowMesh& mesh) {
     const std::size_t faces = mesh.faces().size();
     DetectionTables tables;
     std::vector<DualBounds> blocks((faces + block_size - 1) / block_size);
-    for (std::size_t f = 0; f < faces; ++f) {
-        blocks[f / block_size].include(planes, f);
-        if (mesh.is_degenerate(f)) {
-            tables.degenerate_faces.push_back(static_cast<std::uint32_t>(f));
-        }
-    }
+    for (std::size_t f = 0; f < faces; ++f) blocks[f / block_size].include(planes, f);
     tables.faces = DualBoxes(std::move(blocks));
     blocks.assign((mesh.regular_edges() + block_size - 1) / block_size, {});
     const auto uses = mesh.uses();

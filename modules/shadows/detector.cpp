@@ -84,6 +84,18 @@ void weights_of(std::span<const FaceRun> runs, std::span<std::int8_t> weights) {
     }
 }
 
+std::string_view to_string(Choice choice) {
+    switch (choice) {
+        case Choice::ByName: return "by name";
+        case Choice::FewFaces: return "few faces";
+        case Choice::LargeSilhouette: return "large silhouette";
+        case Choice::Deforming: return "deforming";
+        case Choice::Jump: return "jump";
+        case Choice::SmallStep: return "small step";
+    }
+    return "";
+}
+
 std::size_t internal::memory_of(const Detection& detection) {
     return (detection.casting.plus.capacity() + detection.casting.minus.capacity()) *
                sizeof(std::uint64_t) +
@@ -116,7 +128,14 @@ std::span<const SilhouetteStrategy> silhouette_strategies() {
     return strategies;
 }
 
+const SilhouetteStrategy& automatic_strategy() {
+    static constexpr SilhouetteStrategy automatic{"auto", "chosen for each pair and frame", true,
+                                                  internal::automatic_detector};
+    return automatic;
+}
+
 const SilhouetteStrategy* find_strategy(std::string_view name) {
+    if (name == automatic_strategy().name) return &automatic_strategy();
     const auto strategies = silhouette_strategies();
     const auto found = std::ranges::find(strategies, name, &SilhouetteStrategy::name);
     return found == strategies.end() ? nullptr : &*found;

@@ -55,6 +55,18 @@ struct DetectionStats {
     std::uint64_t bytes_touched = 0;  ///< of the mesh and of what the detector remembers, about
 };
 
+/// Which strategy decided, and why it was that one.
+enum class Choice : std::uint8_t {
+    ByName,           ///< the strategy that was asked for by name
+    FewFaces,         ///< simd: there are so few faces that searching does not pay
+    LargeSilhouette,  ///< simd: the last searches looked at a large part of the edges anyway
+    Deforming,        ///< simd: no hierarchies are made for the places of one frame
+    Jump,       ///< dual_bvh: the light is new, or went so far that most certificates are void
+    SmallStep,  ///< certificates: the light is still near to where it was
+};
+inline constexpr std::size_t choice_count = 6;
+[[nodiscard]] std::string_view to_string(Choice choice);
+
 /// What casts and its boundary: the same for every strategy but for the order of the silhouette.
 struct Detection {
     CastingFaces casting;
@@ -82,6 +94,9 @@ public:
     virtual const Detection& detect(const ShadowMesh& mesh, LightLocal light,
                                     NearCaps near_caps) = 0;
 
+    /// Of the last call.
+    [[nodiscard]] virtual Choice choice() const { return Choice::ByName; }
+
     /// What it remembers between calls, the answer included.
     [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 };
@@ -97,7 +112,11 @@ struct SilhouetteStrategy {
 
 /// All strategies, by name; "auto" is not among them: it is the choice between them.
 [[nodiscard]] std::span<const SilhouetteStrategy> silhouette_strategies();
-/// Null where there is none of that name.
+/// "auto": simd, dual_bvh or certificates, whatever costs least for the mesh and for how far the
+/// light went. Its detector keeps state; without it (a new one for each call, or one for many
+/// pairs) it takes every light for a jump.
+[[nodiscard]] const SilhouetteStrategy& automatic_strategy();
+/// By name, "auto" included. Null where there is none.
 [[nodiscard]] const SilhouetteStrategy* find_strategy(std::string_view name);
 
 }  // namespace gnomon::shadows

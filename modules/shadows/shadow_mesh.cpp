@@ -204,6 +204,9 @@ const internal::MeshTopology& internal::topology_of(const ShadowMesh& mesh) {
 }
 
 const internal::DetectionTables& internal::tables_of(const ShadowMesh& mesh) {
+    std::call_once(mesh.tables_once_, [&] {
+        mesh.tables_ = std::make_shared<const DetectionTables>(make_tables(mesh));
+    });
     return *mesh.tables_;
 }
 
@@ -229,12 +232,13 @@ void ShadowMesh::find_bounds() {
     }
 }
 
-void ShadowMesh::make_tables() {
-    tables_ = std::make_shared<const internal::DetectionTables>(internal::make_tables(*this));
-    for (const std::uint32_t f : tables_->degenerate_faces) {
+void ShadowMesh::find_degenerate_faces() {
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        if (!is_degenerate(f)) continue;
+        degenerate_faces_.push_back(f);
         ++components_[face_components_[f]].degenerate_faces;
     }
-    report_.degenerate_faces = tables_->degenerate_faces.size();
+    report_.degenerate_faces = degenerate_faces_.size();
 }
 
 Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view) {
@@ -273,7 +277,8 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
     internal::order_by_planes(topology, mesh->planes_, closed);
     order_planes(mesh->planes_, topology.input_faces);
     mesh->take(std::make_shared<const internal::MeshTopology>(std::move(topology)));
-    mesh->make_tables();
+    mesh->find_degenerate_faces();
+    static_cast<void>(internal::tables_of(*mesh));
     return mesh;
 }
 
@@ -293,6 +298,7 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::deformed(
     std::shared_ptr<ShadowMesh> mesh(new ShadowMesh);
     mesh->id_ = next_mesh_id();
     mesh->take(topology_);
+    mesh->deformed_ = true;
     mesh->report_ = report_;
     mesh->positions_.reserve(positions_.size());
     for (const std::uint32_t source : topology_->sources) {
@@ -304,7 +310,7 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::deformed(
     mesh->find_bounds();
     mesh->planes_ =
         internal::make_face_planes(mesh->positions_, faces_, mesh->bounds_min_, mesh->bounds_max_);
-    mesh->make_tables();
+    mesh->find_degenerate_faces();
     return mesh;
 }
 
@@ -315,9 +321,9 @@ bool ShadowMesh::is_degenerate(std::size_t face) const {
 std::size_t ShadowMesh::memory_bytes() const {
     return sizeof *this + positions_.capacity() * sizeof(glm::vec3) + topology_->memory_bytes() +
            components_.capacity() * sizeof(Component) +
-           5 * planes_.error.capacity() * sizeof(float) + tables_->faces.memory_bytes() +
-           tables_->edges.memory_bytes() +
-           tables_->degenerate_faces.capacity() * sizeof(std::uint32_t);
+           5 * planes_.error.capacity() * sizeof(float) +
+           degenerate_faces_.capacity() * sizeof(std::uint32_t) +
+           (tables_ == nullptr ? 0 : tables_->faces.memory_bytes() + tables_->edges.memory_bytes());
 }
 
 }  // namespace gnomon::shadows

@@ -155,6 +155,11 @@ public:
     [[nodiscard]] const FacePlanes& planes() const { return planes_; }
     /// Whether a face has no area, exactly; it casts nothing.
     [[nodiscard]] bool is_degenerate(std::size_t face) const;
+    [[nodiscard]] std::span<const std::uint32_t> degenerate_faces() const {
+        return degenerate_faces_;
+    }
+    /// Made by deformed().
+    [[nodiscard]] bool is_deformed() const { return deformed_; }
     /// Of everything that the mesh holds, but for what shadow queries search in.
     [[nodiscard]] std::size_t memory_bytes() const;
     [[nodiscard]] glm::vec3 bounds_min() const { return bounds_min_; }
@@ -167,7 +172,7 @@ private:
     ShadowMesh() = default;
     void take(std::shared_ptr<const internal::MeshTopology> topology);
     void find_bounds();
-    void make_tables();
+    void find_degenerate_faces();
 
     std::uint64_t id_ = 0;
     MeshReport report_;
@@ -186,7 +191,12 @@ private:
     FacePlanes planes_;
     glm::vec3 bounds_min_{0.0F};
     glm::vec3 bounds_max_{0.0F};
-    std::shared_ptr<const internal::DetectionTables> tables_;
+    bool deformed_ = false;
+    std::vector<std::uint32_t> degenerate_faces_;  // ascending
+    // What silhouettes are searched in: made with the mesh, or when first asked for where that is
+    // deformed.
+    mutable std::once_flag tables_once_;
+    mutable std::shared_ptr<const internal::DetectionTables> tables_;
     // What shadow queries search in: made when first asked for, then as immutable as the rest.
     mutable std::once_flag face_tree_once_;
     mutable std::shared_ptr<const internal::FaceTree> face_tree_;

@@ -105,9 +105,9 @@ struct FrameStats {
     std::uint64_t zpass_pairs = 0;
     std::uint64_t zfail_pairs = 0;
     std::uint64_t silhouette_edges = 0;  ///< of all pairs drawn
-    std::uint64_t stencil_batches = 0;  ///< of all lights; as many as lights with volumes where
-                                        ///< none was split
-    std::uint64_t split_lights = 0;     ///< lights with more than one batch
+    std::uint64_t stencil_batches = 0;   ///< of all lights; as many as lights with volumes where
+                                         ///< none was split
+    std::uint64_t split_lights = 0;      ///< lights with more than one batch
     DetectionStats detection;
     double detect_ms = 0.0;                             ///< facing and silhouettes
     double build_ms = 0.0;                              ///< index ranges, parts included

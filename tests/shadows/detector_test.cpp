@@ -168,6 +168,7 @@ std::vector<std::string> names() {
     for (const SilhouetteStrategy& strategy : silhouette_strategies()) {
         result.emplace_back(strategy.name);
     }
+    result.emplace_back(automatic_strategy().name);
     return result;
 }
 

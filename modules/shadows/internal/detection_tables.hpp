@@ -3,18 +3,13 @@
 // What detectors search in, made once a mesh.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 #include "dual_boxes.hpp"
 
 namespace gnomon::shadows::internal {
 
 struct DetectionTables {
-    DualBoxes faces;                              ///< blocks of 16 faces
-    DualBoxes edges;                              ///< blocks of 16 regular edges
-    std::vector<std::uint32_t> degenerate_faces;  ///< ascending
+    DualBoxes faces;  ///< blocks of 16 faces
+    DualBoxes edges;  ///< blocks of 16 regular edges
 };
 
 [[nodiscard]] DetectionTables make_tables(const ShadowMesh& mesh);

@@ -171,7 +171,7 @@ void search_faces(const ShadowMesh& mesh, const BlockClassifier& classifier, Fac
         sides.set_block(block, found.facing, found.edge_on);
         settled(block, 1, found.margin);
     }
-    for (const std::uint32_t face : tables_of(mesh).degenerate_faces) sides.set_edge_on(face);
+    for (const std::uint32_t face : mesh.degenerate_faces()) sides.set_edge_on(face);
     stats.faces_tested += crossed.size() * block_size;
     stats.bytes_touched +=
         nodes * sizeof(BoxNode) + crossed.size() * block_size * bytes_per_face_test;

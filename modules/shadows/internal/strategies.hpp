@@ -13,6 +13,7 @@ namespace gnomon::shadows::internal {
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> simd_detector();
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> dual_bvh_detector();
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> certificates_detector();
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> automatic_detector();
 
 /// The bytes that a detection's lists hold.
 [[nodiscard]] std::size_t memory_of(const Detection& detection);

@@ -11,16 +11,15 @@
 // Data", 1999), whose certificates hold for any motion instead of a known one; near to M. Pop, C.
 // Duncan, G. Barequet, M. Goodrich, W. Huang and S. Kumar, "Efficient Perspective-Accurate
 // Silhouette Computation and Applications" (2001).
+#include "internal/certificates.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
 
-#include "internal/deadlines.hpp"
 #include "internal/displacement.hpp"
 #include "internal/finite.hpp"
-#include "internal/side_detection.hpp"
-#include "internal/silhouette_set.hpp"
 #include "internal/strategies.hpp"
 
 namespace gnomon::shadows::internal {
@@ -48,62 +47,41 @@ double quantile(std::span<const double> values, std::size_t count) {
     return *at;
 }
 
-class Certificates final : public SilhouetteDetector {
-public:
-    const Detection& detect(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) override {
-        if (!is_finite(light.position)) {
-            mesh_ = 0;
-            return nothing_of(mesh, found_);
-        }
-        found_.stats = {};
-        if (mesh_ != mesh.id() || near_caps_ != near_caps ||
-            light_.is_directional() != light.is_directional()) {
+}  // namespace
+
+const Detection& Certificates::detect(const ShadowMesh& mesh, LightLocal light,
+                                      NearCaps near_caps) {
+    if (!is_finite(light.position)) {
+        mesh_ = 0;
+        return nothing_of(mesh, found_);
+    }
+    found_.stats = {};
+    if (mesh_ != mesh.id() || near_caps_ != near_caps ||
+        light_.is_directional() != light.is_directional()) {
+        search(mesh, light, near_caps);
+        return found_;
+    }
+    const double way = sum_up(way_, displacement(light_, light));
+    found_.changed = false;
+    if (way > std::min(deadlines_.next(), castings_deadline_)) {
+        const bool far = !(way - way_ < far_);
+        way_ = way;
+        light_ = light;
+        if (far) {
             search(mesh, light, near_caps);
             return found_;
         }
-        const double way = sum_up(way_, displacement(light_, light));
-        found_.changed = false;
-        if (way > std::min(deadlines_.next(), castings_deadline_)) {
-            const bool far = !(way - way_ < far_);
-            way_ = way;
-            light_ = light;
-            if (far) {
-                search(mesh, light, near_caps);
-                return found_;
-            }
-            renew(mesh);
-        }
-        found_.margin =
-            std::max(0.0, sum_down(std::min(deadlines_.next(), castings_deadline_), -way));
-        return found_;
+        renew(mesh);
     }
+    found_.margin = std::max(0.0, sum_down(std::min(deadlines_.next(), castings_deadline_), -way));
+    return found_;
+}
 
-    [[nodiscard]] std::size_t memory_bytes() const override {
-        return sizeof *this + sides_.memory_bytes() + memory_of(found_) +
-               silhouette_.memory_bytes() + deadlines_.memory_bytes() +
-               (flipped_.capacity() + blocks_.capacity()) * sizeof(std::uint32_t);
-    }
-
-private:
-    void search(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps);
-    void renew(const ShadowMesh& mesh);
-    bool renew_castings(const ShadowMesh& mesh);
-    void find_whole_silhouette(const ShadowMesh& mesh, const FilterLight& light);
-
-    std::uint64_t mesh_ = 0;  // 0: nothing is known
-    NearCaps near_caps_ = NearCaps::Facing;
-    LightLocal light_;     // where the light was when something was due last
-    double way_ = 0.0;     // that it had come
-    Deadlines deadlines_;  // by block of faces
-    double castings_deadline_ = 0.0;
-    Sides sides_;
-    Detection found_;
-    SilhouetteSet silhouette_{found_.silhouette};
-    std::vector<std::uint32_t> flipped_;
-    std::vector<std::uint32_t> blocks_;  // searched, or due
-    // Beyond this way a search costs less than renewing what is due, as far as can be told.
-    double far_ = 0.0;
-};
+std::size_t Certificates::memory_bytes() const {
+    return sizeof *this + sides_.memory_bytes() + memory_of(found_) + silhouette_.memory_bytes() +
+           deadlines_.memory_bytes() +
+           (flipped_.capacity() + blocks_.capacity()) * sizeof(std::uint32_t);
+}
 
 void Certificates::search(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) {
     if (mesh_ != mesh.id()) {
@@ -195,8 +173,6 @@ void Certificates::renew(const ShadowMesh& mesh) {
     found_.stats.edges_tested = 3 * flipped_.size();
     found_.stats.bytes_touched += found_.stats.edges_tested * (sizeof(Edge) + bytes_per_edge_test);
 }
-
-}  // namespace
 
 std::unique_ptr<SilhouetteDetector> certificates_detector() {
     return std::make_unique<Certificates>();
