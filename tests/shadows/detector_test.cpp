@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -68,6 +69,11 @@ std::optional<LightLocal> within(Random& random, LightLocal light, double margin
 
 std::uint64_t pairs_to_try() {
     const char* set = std::getenv("GNOMON_PAIRS");
+    return set == nullptr ? 3'000 : std::strtoull(set, nullptr, 10);
+}
+
+std::uint64_t frames_to_run() {
+    const char* set = std::getenv("GNOMON_FRAMES");
     return set == nullptr ? 3'000 : std::strtoull(set, nullptr, 10);
 }
 
@@ -131,6 +137,68 @@ TEST_P(EveryStrategy, FollowsAMotion) {
                 ASSERT_EQ(answer, last) << "motion " << motion << ", step " << step;
             }
             last = answer;
+        }
+    }
+}
+
+// Along long ways: an orbit by small and by large steps, a drift, a tremble about one place, and a
+// walk through the mesh. Nothing may add up.
+TEST_P(EveryStrategy, NeverDrifts) {
+    GNOMON_RANDOM(random);
+    if (!strategy().keeps_state) GTEST_SKIP() << "remembers nothing";
+    const std::uint64_t frames = frames_to_run();
+    const std::uint64_t compared_every = std::min<std::uint64_t>(1'000, frames / 10);
+    const auto mesh = test::build(
+        test::merged(test::torus(60, 90), test::moved(test::sphere(20, 30), {2, 0, 0})));
+    for (const std::string_view motion :
+         {"orbit", "fast orbit", "drift", "tremble", "walk", "sun"}) {
+        const auto detector = strategy().create();
+        glm::dvec3 place(3.0, 1.0, 0.5);
+        double angle = 0.0;
+        for (std::uint64_t frame = 1; frame <= frames; ++frame) {
+            LightLocal light;
+            if (motion == "orbit" || motion == "fast orbit") {
+                angle += motion == "orbit" ? 1e-4 : 7e-3;
+                place = {3.0 * std::cos(angle), 1.0, 3.0 * std::sin(angle)};
+            } else if (motion == "drift") {
+                place += glm::dvec3(1e-6, -2e-6, 3e-6);
+            } else if (motion == "tremble") {
+                place = glm::dvec3(3.0, 1.0, 0.5) + 1e-3 * random.in_cube(1.0);
+            } else {
+                place += 0.01 * random.in_cube(1.0);
+                if (glm::length(place) > 4.0) place *= 0.9;
+            }
+            light.position = glm::vec4(glm::vec3(place), 1.0F);
+            if (motion == "sun") {
+                angle += 1e-5;
+                light.position = {std::cos(angle), std::sin(angle), 0.3F, 0.0F};
+            }
+            const Detection& found = detector->detect(*mesh, light, NearCaps::Facing);
+            if (frame % compared_every != 0) continue;
+            ASSERT_EQ(answer_of(found), expected(*mesh, light, NearCaps::Facing))
+                << motion << ", frame " << frame;
+        }
+    }
+}
+
+// The same triangles in new places every frame, as a skin has them.
+TEST_P(EveryStrategy, FollowsADeformation) {
+    GNOMON_RANDOM(random);
+    const auto detector = strategy().create();
+    for (int i = 0; i < 30; ++i) {
+        const test::Triangles rest = i % 2 == 0 ? test::torus(9, 14) : test::random_mesh(random);
+        const auto mesh = test::build(rest);
+        const LightLocal light = test::random_light(random, *mesh);
+        for (int frame = 0; frame < 10; ++frame) {
+            std::vector<glm::vec3> positions = rest.positions;
+            for (glm::vec3& p : positions) {
+                p.x += 0.3F * std::sin(p.y + 0.1F * static_cast<float>(frame));
+            }
+            const auto deformed = mesh->deformed(positions);
+            ASSERT_TRUE(deformed);
+            const Detection& found = detector->detect(**deformed, light, NearCaps::Facing);
+            ASSERT_EQ(answer_of(found), expected(**deformed, light, NearCaps::Facing))
+                << "mesh " << i << ", frame " << frame;
         }
     }
 }
