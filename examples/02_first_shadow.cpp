@@ -52,7 +52,7 @@ Status first_shadow() {
     auto frame = system->begin_frame();
     scene::ShadowAdapter adapter;
     if (const Status submitted = adapter.submit(scene, frame); !submitted) return submitted;
-    const shadows::DrawList volumes = std::move(frame).finish(view);
+    const shadows::DrawList& volumes = std::move(frame).finish(view);
     if (const Status drawn = renderer->render({scene, view, volumes}); !drawn) return drawn;
 
     // What came of it: 0 in the mask is light, anything else is shadow.

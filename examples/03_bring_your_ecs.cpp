@@ -33,8 +33,8 @@ Result<std::shared_ptr<const shadows::ShadowMesh>> make_hull() {
          .indices = indices});
 }
 
-shadows::DrawList submit(shadows::ShadowSystem& system, const std::vector<Ship>& ships,
-                         const glm::dvec4& sun, const shadows::View& view) {
+const shadows::DrawList& submit(shadows::ShadowSystem& system, const std::vector<Ship>& ships,
+                                const glm::dvec4& sun, const shadows::View& view) {
     auto frame = system.begin_frame();
     for (const Ship& ship : ships)
         frame.caster({.key = ship.id, .mesh = ship.hull, .world_from_local = ship.pose});

@@ -111,7 +111,7 @@ Status Run::frame(std::uint32_t index, bool last) {
     const double aspect = static_cast<double>(options_.size.width) / options_.size.height;
     const shadows::View view =
         render::make_view(shot_.camera, shot_.world_from_camera, aspect, shot_.near_m);
-    const shadows::DrawList list = std::move(frame).finish(view);
+    const shadows::DrawList& list = std::move(frame).finish(view);
 
     double read_back_ms = 0.0;
     gpu::DeviceCounters read_back;

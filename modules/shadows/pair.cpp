@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace gnomon::shadows::internal {
 
@@ -29,17 +30,20 @@ double displacement(const LightLocal& from, const LightLocal& to) {
     return glm::length(b / length_b - a / length_a) + 4.0 * std::numeric_limits<double>::epsilon();
 }
 
-Reason what_moved(const PairState& pair, const CasterState& caster, const LightState& light) {
-    const bool caster_moved = pair.pose_revision != caster.pose_revision;
-    const bool light_moved = pair.light_revision != light.revision;
-    if (caster_moved && light_moved) return Reason::BothMoved;
-    return light_moved ? Reason::LightMoved : Reason::CasterMoved;
+Reason what_moved(const CasterState& caster, const LightState& light) {
+    if (caster.moved && light.moved) return Reason::BothMoved;
+    return light.moved ? Reason::LightMoved : Reason::CasterMoved;
+}
+
+float not_above(double x) {
+    const auto rounded = static_cast<float>(x);
+    return static_cast<double>(rounded) > x ? std::nextafter(rounded, 0.0F) : rounded;
 }
 
 // A pose without an inverse: decided where it leads to, relative to its own origin.
 const Detection& detect_flattened(const CasterState& caster, const LightState& light,
                                   Scratch& scratch) {
-    const ShadowMesh& mesh = *caster.caster.mesh;
+    const ShadowMesh& mesh = *caster.mesh;
     glm::dmat4 parent_from_local = caster.pose.world_from_local;
     const glm::dvec3 origin(parent_from_local[3]);
     parent_from_local[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
@@ -60,38 +64,53 @@ const Detection& detect_flattened(const CasterState& caster, const LightState& l
 }
 
 SilhouetteDetector& detector_of(PairState& pair, const SilhouetteStrategy& strategy,
-                                Scratch& scratch) {
-    auto& detector = strategy.keeps_state ? pair.detector : scratch.detector;
-    if (detector == nullptr) detector = strategy.create();
-    return *detector;
+                                std::uint64_t frame, Scratch& scratch) {
+    if (strategy.keeps_state) {
+        PairExtra& extra = pair.more();
+        if (extra.detector == nullptr || extra.strategy != &strategy) {
+            extra.detector = strategy.create();
+            extra.strategy = &strategy;
+        }
+        extra.detected_frame = frame;
+        return *extra.detector;
+    }
+    for (auto& [of, detector] : scratch.detectors) {
+        if (of == &strategy) return *detector;
+    }
+    return *scratch.detectors.emplace_back(&strategy, strategy.create()).second;
 }
 
+// `same_kind`: the volume that the pair has was made on the same terms, for another light.
 void detect(PairState& pair, const CasterState& caster, const LightState& light,
-            FarVertices far_vertices, const SilhouetteStrategy& strategy, Scratch& scratch,
-            FrameStats& stats) {
-    const ShadowMesh& mesh = *caster.caster.mesh;
+            const FrameTerms& terms, const SilhouetteStrategy& strategy, bool same_kind,
+            Scratch& scratch, PairWork& work, FrameStats& stats) {
+    const ShadowMesh& mesh = *caster.mesh;
+    const LightLocal current = current_light(pair, light);
     const auto start = Clock::now();
     const Detection& found = caster.pose.singular
                                  ? detect_flattened(caster, light, scratch)
-                                 : detector_of(pair, strategy, scratch)
-                                       .detect(mesh, pair.current, caster.caster.near_caps);
+                                 : detector_of(pair, strategy, terms.frame, scratch)
+                                       .detect(mesh, current, caster.near_caps);
     const auto detected = Clock::now();
 
-    auto volume = std::make_shared<Volume>();
-    scratch.weights.resize(mesh.faces().size());
-    runs_of(found.casting, scratch.runs);
-    weights_of(scratch.runs, scratch.weights);
-    build_volume(mesh, scratch.weights, found.silhouette, light.light.position_world.w == 0.0,
-                 far_vertices, *volume, found.solid_averted);
-    pair.mesh = caster.caster.mesh;
-    pair.volume = std::move(volume);
-    pair.volume_revision = next_volume_revision();
-    pair.far_vertices = far_vertices;
-    pair.near_caps = caster.caster.near_caps;
-    pair.flattened = caster.pose.singular;
-    pair.detected = pair.current;
-    pair.margin = found.margin;
-    pair.nearest_face = -1.0;
+    // A detector of the pair's own, which found what it had found for the volume that there is.
+    const bool same = same_kind && !found.changed && strategy.keeps_state && !caster.pose.singular;
+    if (!same) {
+        auto volume = std::make_shared<Volume>();
+        scratch.weights.resize(mesh.faces().size());
+        runs_of(found.casting, scratch.runs);
+        weights_of(scratch.runs, scratch.weights);
+        build_volume(mesh, scratch.weights, found.silhouette, light.light.position_world.w == 0.0,
+                     terms.far_vertices, *volume, found.solid_averted);
+        work.made = std::move(volume);
+    }
+    pair.set(PairFlag::Known, true);
+    pair.set(PairFlag::FiniteFar, terms.far_vertices == FarVertices::Finite);
+    pair.set(PairFlag::AvertedCaps, caster.near_caps == NearCaps::Averted);
+    pair.set(PairFlag::Flattened, caster.pose.singular);
+    pair.detected = glm::vec3(current.position);
+    pair.margin = not_above(found.margin);
+    if (pair.extra != nullptr) pair.extra->nearest_face = -1.0;
 
     stats.detect_ms += milliseconds(start, detected);
     stats.build_ms += milliseconds(detected, Clock::now());
@@ -134,61 +153,101 @@ std::uint64_t next_volume_revision() {
     return next.fetch_add(1);
 }
 
-Reason update_pair(PairState& pair, const CasterState& caster, const LightState& light,
-                   FarVertices far_vertices, const SilhouetteStrategy& strategy, Scratch& scratch,
-                   FrameStats& stats) {
-    const bool is_new = pair.volume == nullptr;
-    const bool same_poses =
-        pair.pose_revision == caster.pose_revision && pair.light_revision == light.revision;
+OrientedBounds bounds_of(const CasterState& caster) {
+    return {caster.pose.world_from_local, glm::dvec3(caster.mesh->bounds_min()),
+            glm::dvec3(caster.mesh->bounds_max())};
+}
+
+LightLocal current_light(const PairState& pair, const LightState& light) {
+    return {
+        glm::vec4(glm::vec3(pair.light_exact), static_cast<float>(light.light.position_world.w))};
+}
+
+const SilhouetteStrategy& choose_strategy(const SilhouetteStrategy* wanted,
+                                          const ShadowMesh& /*mesh*/,
+                                          const PairHistory& /*history*/) {
+    // As long as there is one strategy alone, there is nothing to choose by.
+    return wanted != nullptr ? *wanted : *find_strategy("brute_force");
+}
+
+void update_pair(PairState& pair, const CasterState& caster, const LightState& light,
+                 const FrameTerms& terms, const Volume* volume, Scratch& scratch, PairWork& work,
+                 FrameStats& stats) {
+    const bool is_new = !pair.is(PairFlag::Known);
+    const glm::dvec4& light_world = light.light.position_world;
+    const bool directional = light_world.w == 0.0;
+    const bool finite_far = terms.far_vertices == FarVertices::Finite;
+    const bool averted = caster.near_caps == NearCaps::Averted;
+    const bool comparable = !is_new && !caster.pose.singular && !pair.is(PairFlag::Flattened) &&
+                            pair.is(PairFlag::Directional) == directional;
     Reason reason = Reason::Unchanged;
     bool light_is_new = is_new;
 
-    if (!is_new && (pair.mesh != caster.caster.mesh)) {
+    if (!is_new && caster.mesh_before != caster.mesh->id()) {
         reason = Reason::MeshChanged;
-    } else if (!is_new && pair.far_vertices != far_vertices) {
+    } else if (!is_new && pair.is(PairFlag::FiniteFar) != finite_far) {
         reason = Reason::ProjectionChanged;
-    } else if (!is_new && pair.near_caps != caster.caster.near_caps) {
+    } else if (!is_new && pair.is(PairFlag::AvertedCaps) != averted) {
         reason = Reason::NearCapsChanged;
     }
     const bool asked_anew = reason != Reason::Unchanged;
 
-    if (!same_poses || is_new) {
+    if (caster.moved || light.moved || is_new) {
         if (caster.pose.singular) {
-            pair.current_exact = light.light.position_world;
-            pair.current.position = glm::vec4(light.light.position_world);
-            if (reason == Reason::Unchanged) reason = what_moved(pair, caster, light);
+            pair.light_exact = glm::dvec3(light_world);
+            if (reason == Reason::Unchanged) reason = what_moved(caster, light);
             light_is_new = true;
         } else {
-            const LocalLight local = local_light(caster.pose, light.light.position_world);
-            const bool comparable =
-                !is_new && !pair.flattened && pair.current_exact.w == local.position.w;
+            const LocalLight local = local_light(caster.pose, light_world);
             // Indistinguishable from where it was: the difference is what composing the poses
             // rounds. The reference stays, so that nothing can drift.
             const bool unmoved =
-                comparable && indistinguishable(caster.pose, local, pair.current_exact);
+                comparable &&
+                indistinguishable(caster.pose, local, glm::dvec4(pair.light_exact, light_world.w));
             if (!unmoved) {
-                pair.current_exact = local.position;
-                pair.current.position = glm::vec4(local.position);
+                pair.light_exact = glm::dvec3(local.position);
+                const LightLocal detected{
+                    glm::vec4(pair.detected, static_cast<float>(light_world.w))};
                 const bool certified =
-                    comparable && displacement(pair.detected, pair.current) <= pair.margin;
+                    comparable && displacement(detected, current_light(pair, light)) <=
+                                      static_cast<double>(pair.margin);
                 if (!certified) light_is_new = true;
                 if (reason == Reason::Unchanged) {
-                    reason = certified ? Reason::WithinMargin : what_moved(pair, caster, light);
+                    reason = certified ? Reason::WithinMargin : what_moved(caster, light);
                 }
             }
         }
-        pair.nearest_face = -1.0;  // in metres: a caster scaled about the light changes it as well
+        pair.set(PairFlag::Directional, directional);
+        // In metres: a caster scaled about the light changes it as well.
+        if (pair.extra != nullptr) pair.extra->nearest_face = -1.0;
     }
     if (is_new) reason = Reason::New;
     if (light_is_new || asked_anew) {
-        detect(pair, caster, light, far_vertices, strategy, scratch, stats);
+        const PairHistory history{
+            .is_new = is_new,
+            .frames_at_rest = static_cast<std::uint16_t>(terms.frame - pair.changed - 1)};
+        detect(pair, caster, light, terms, choose_strategy(terms.strategy, *caster.mesh, history),
+               comparable && !asked_anew, scratch, work, stats);
     } else {
         ++stats.pairs_reused;
     }
-    if (reason != Reason::Unchanged) pair.layers = {};
-    pair.pose_revision = caster.pose_revision;
-    pair.light_revision = light.revision;
-    return reason;
+    pair.reason = reason;
+    ++stats.reasons[static_cast<std::size_t>(reason)];
+    if (reason == Reason::Unchanged) return;
+
+    pair.changed = static_cast<std::uint16_t>(terms.frame);
+    pair.set(PairFlag::Bounded, false);
+    const Volume* now = work.made != nullptr ? work.made.get() : volume;
+    if (now == nullptr) return;
+    pair.set(PairFlag::FromOutside, seen_from_outside(*caster.mesh, space_of(pair, caster, light)));
+    work.layers = quick_layer_bound(*now, pair.is(PairFlag::FromOutside));
+}
+
+LayerSpace space_of(const PairState& pair, const CasterState& caster, const LightState& light) {
+    if (pair.is(PairFlag::Flattened)) {
+        return {caster.pose.world_from_local, light.light.position_world};
+    }
+    return {glm::dmat4(1.0), glm::dvec4(current_light(pair, light).position)};
 }
 
 double nearest_face(const Volume& volume, const ShadowMesh& mesh,

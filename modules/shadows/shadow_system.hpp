@@ -8,9 +8,11 @@
 //     for (auto& ship : ships)
 //         frame.caster({.key = ship.id, .mesh = ship.mesh, .world_from_local = ship.pose});
 //     frame.light({.key = 1, .position_world = {0.3, 1.0, 0.2, 0.0}});
-//     const DrawList list = std::move(frame).finish(view);
+//     const DrawList& list = std::move(frame).finish(view);
 //
-// It knows no ECS, no GPU, no scene. One system, one thread at a time.
+// A frame in which nothing changed costs the comparing of what is submitted, and nothing at all
+// where only changes are (Submission::Delta). It knows no ECS, no GPU, no scene. One system, one
+// thread at a time.
 #pragma once
 
 #include <array>
@@ -26,6 +28,7 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/shadows/detector.hpp>
 #include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/jobs.hpp>
 #include <gnomon/shadows/light.hpp>
 #include <gnomon/shadows/shadow_mesh.hpp>
 #include <gnomon/shadows/technique.hpp>
@@ -109,14 +112,18 @@ struct FrameStats {
                                          ///< none was split
     std::uint64_t split_lights = 0;      ///< lights with more than one batch
     DetectionStats detection;
-    double detect_ms = 0.0;                             ///< facing and silhouettes
-    double build_ms = 0.0;                              ///< index ranges, parts included
+    double detect_ms = 0.0;  ///< facing and silhouettes; of all threads together
+    double build_ms = 0.0;   ///< index ranges, parts included; of all threads together
     std::array<std::uint64_t, reason_count> reasons{};  ///< pairs, by Reason
 };
 
 /// What to draw this frame: sorted by light key, then caster key; a caster whose volume was split
-/// has a draw for each part. Same input, same list.
+/// has a draw for each part. Same input, same list: whatever came before, and however many threads
+/// worked on it. A copy shares the meshes and volumes.
 struct DrawList {
+    /// Changes whenever anything in lights or draws does but VolumeDraw::reason; unique in the
+    /// process. 0 for a list that no system made: whoever changes a copy should say so.
+    std::uint64_t revision = 0;
     std::vector<LightDraws> lights;  ///< every light of the frame, also one without volumes
     std::vector<VolumeDraw> draws;
     FrameStats stats;
@@ -134,6 +141,24 @@ struct SystemOptions {
     /// A light whose volumes could lay more layers than this over a point is split into batches.
     /// 1 .. 255: what eight bits count. Less is for tests.
     std::uint32_t max_layers = 255;
+    /// Runs the detection and building of pairs that changed. Empty: all on the thread that calls
+    /// finish(). That is the default because a library that starts threads unasked competes with
+    /// its host's own; thread_jobs() is a runner for hosts without any.
+    Jobs jobs = {};
+};
+
+/// What a ShadowSystem holds, in bytes: capacities, without what the allocator adds.
+struct SystemMemory {
+    std::uint64_t casters = 0;  ///< with the look-up of their keys
+    std::uint64_t lights = 0;   ///< likewise, and how each was split
+    /// 60 bytes for each pair of a light and a caster, in range or not.
+    std::uint64_t pairs = 0;
+    /// What pairs hold for a while: detectors that keep state, until a pair has been at rest for 64
+    /// to 128 frames; whole volumes and parts of lights that are split; distances for finite views.
+    std::uint64_t extras = 0;
+    std::uint64_t draws = 0;    ///< of the draw list
+    std::uint64_t volumes = 0;  ///< what it shares with copies of the list: volumes, their indices
+    std::uint64_t scratch = 0;  ///< what is reused from frame to frame
 };
 
 class ShadowSystem {
@@ -148,15 +173,21 @@ public:
     /// One frame's submission. Ends with finish(); dropped without it, it has still been submitted.
     class Frame {
     public:
-        /// A key submitted twice in a frame: the last one counts. Cost: a look-up and a compare.
+        /// A key submitted twice in a frame: the last one counts. Cost: a comparison where casters
+        /// come in the order of the last frame, else a look-up and a comparison; the mesh's
+        /// reference count is left alone where it is the same mesh.
         void caster(const Caster& caster);
         void light(const Light& light);
         void remove_caster(std::uint64_t key);
         void remove_light(std::uint64_t key);
         /// Detects and builds what changed. A matrix or light that is not finite leaves its pairs
-        /// out and is counted as culled. Cost: O(casters x lights) compares, plus the work on pairs
-        /// that changed.
-        [[nodiscard]] DrawList finish(const View& view) &&;
+        /// out and is counted as culled. The list is the system's and stands until its next
+        /// finish(); copy it to keep it. Cost: nothing where no submission differed from the last
+        /// and the view is the same to the bit (one look at what had changed before, once); else
+        /// some microseconds for each pair whose caster or light changed, some hundred nanoseconds
+        /// for each draw where the view did, and a pass over the draws where some came or went.
+        /// Allocates nothing where nothing changed.
+        [[nodiscard]] const DrawList& finish(const View& view) &&;
 
     private:
         friend class ShadowSystem;
@@ -165,6 +196,9 @@ public:
     };
 
     [[nodiscard]] Frame begin_frame(Submission submission = Submission::Full);
+
+    /// Cost: linear in pairs and draws.
+    [[nodiscard]] SystemMemory memory() const;
 
 private:
     struct State;

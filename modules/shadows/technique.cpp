@@ -8,6 +8,7 @@
 #include <span>
 
 #include "internal/finite.hpp"
+#include "internal/near_clip.hpp"
 
 namespace gnomon::shadows {
 
@@ -41,81 +42,99 @@ std::array<glm::dvec3, 8> corners_of(const OrientedBounds& bounds) {
     return corners;
 }
 
-bool depth_pass_is_valid(const OrientedBounds& bounds, const glm::dvec4& light_world,
-                         const View& view) {
+namespace internal {
+
+NearClip::NearClip(const glm::dvec4& light_world, const View& view)
+    : eye_(glm::inverse(view.view_from_world)[3]),
+      forward_(-glm::dvec3(glm::transpose(view.view_from_world)[2])),
+      directional_(light_world.w == 0.0) {
     // Everything relative to the eye, so that a scene far from the origin loses nothing.
-    const glm::dvec3 eye(glm::inverse(view.view_from_world)[3]);
-    const bool directional = light_world.w == 0.0;
-    const glm::dvec3 light = directional ? glm::dvec3(light_world) : glm::dvec3(light_world) - eye;
+    light_ = directional_ ? glm::dvec3(light_world) : glm::dvec3(light_world) - eye_;
 
     // The near rectangle, widened sideways and made a slab: a rasteriser's idea of it is only so
     // exact.
     std::array<glm::dvec3, 4> rectangle = near_corners(view);
     glm::dvec3 center(0.0);
-    for (glm::dvec3& corner : rectangle) center += (corner -= eye) * 0.25;
-    std::array<glm::dvec3, 9> hull{};
+    for (glm::dvec3& corner : rectangle) center += (corner -= eye_) * 0.25;
     const double half_size = glm::length(rectangle[0] - center);
-    const glm::dvec3 forward = -glm::dvec3(glm::transpose(view.view_from_world)[2]);
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec3 wide = center + (rectangle[i] - center) * 1.05;
         const glm::dvec3 step = view.projection == ProjectionKind::Orthographic
-                                    ? forward * (0.02 * half_size)
+                                    ? forward_ * (0.02 * half_size)
                                     : wide * 0.02;
-        hull[i] = wide - step;
-        hull[4 + i] = wide + step;
+        hull_[i] = wide - step;
+        hull_[4 + i] = wide + step;
     }
-    const std::ptrdiff_t hull_count = directional ? 8 : 9;
-    if (!directional) hull[8] = light;
-
-    std::array<glm::dvec3, 8> box = corners_of(bounds);
-    double reach = 0.0;
-    for (glm::dvec3& corner : box) reach = std::max(reach, glm::length(corner -= eye));
-    const double slack = 1e-6 * reach;  // single-precision clip coordinates round this much
+    hull_count_ = directional_ ? 8 : 9;
+    if (!directional_) hull_[8] = light_;
 
     // Comparisons with not-a-number would find anything separate.
-    const auto finite = [](const glm::dvec3& p) { return internal::is_finite(p); };
-    if (!std::all_of(hull.begin(), hull.begin() + hull_count, finite) ||
-        !std::all_of(box.begin(), box.end(), finite) || !finite(light)) {
-        return false;
-    }
+    const auto is_number = [](const glm::dvec3& p) { return is_finite(p); };
+    finite_ =
+        std::all_of(hull_.begin(), hull_.begin() + hull_count_, is_number) && is_finite(light_);
 
+    // The hull's edges: round the slab, across it, and from its corners to the light.
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        edges_[count++] = hull_[(i + 1) % 4] - hull_[i];
+        edges_[count++] = hull_[4 + i] - hull_[i];
+    }
+    for (std::size_t i = 0; i < 8; ++i) edges_[count++] = directional_ ? light_ : light_ - hull_[i];
+    const auto add_side = [&](const glm::dvec3& axis) {
+        const double length = glm::length(axis);
+        if (length > 0.0)
+            sides_[static_cast<std::size_t>(side_count_++)] = extent_along(axis / length);
+    };
+    add_side(forward_);
+    for (std::size_t i = 0; i < 8; ++i) {
+        const std::size_t next = (i & 4U) + ((i + 1) & 3U);
+        add_side(glm::cross(hull_[next] - hull_[i], edges_[8 + i]));
+    }
+}
+
+NearClip::Side NearClip::extent_along(const glm::dvec3& unit) const {
+    const Extent hull = project(std::span(hull_.begin(), hull_.begin() + hull_count_), unit);
+    const double along = directional_ ? glm::dot(light_, unit) : 0.0;
+    const double tiny = directional_ ? 1e-12 * glm::length(light_) : 0.0;
+    return {unit, along < -tiny ? -std::numeric_limits<double>::infinity() : hull.low,
+            along > tiny ? std::numeric_limits<double>::infinity() : hull.high};
+}
+
+bool NearClip::is_clear_of(const OrientedBounds& bounds) const {
+    std::array<glm::dvec3, 8> box = corners_of(bounds);
+    double reach = 0.0;
+    for (glm::dvec3& corner : box) reach = std::max(reach, glm::length(corner -= eye_));
+    const double slack = 1e-6 * reach;  // single-precision clip coordinates round this much
+    const auto is_number = [](const glm::dvec3& p) { return is_finite(p); };
+    if (!finite_ || !std::all_of(box.begin(), box.end(), is_number)) return false;
+
+    const auto is_beyond = [&](const Side& side) {
+        const Extent b = project(box, side.normal);
+        return side.low > b.high + slack || b.low > side.high + slack;
+    };
     const auto separates = [&](const glm::dvec3& axis) {
         const double length = glm::length(axis);
-        if (!(length > 0.0)) return false;
-        const glm::dvec3 n = axis / length;
-        const Extent a = project(std::span(hull.begin(), hull.begin() + hull_count), n);
-        const Extent b = project(box, n);
-        const double along = directional ? glm::dot(light, n) : 0.0;
-        const double tiny = directional ? 1e-12 * glm::length(light) : 0.0;
-        const double a_low = along < -tiny ? -std::numeric_limits<double>::infinity() : a.low;
-        const double a_high = along > tiny ? std::numeric_limits<double>::infinity() : a.high;
-        return a_low > b.high + slack || b.low > a_high + slack;
+        return length > 0.0 && is_beyond(extent_along(axis / length));
     };
-
+    // The hull's own sides first: they cost least and decide most.
+    if (std::any_of(sides_.begin(), sides_.begin() + side_count_, is_beyond)) return true;
     const std::array<glm::dvec3, 3> box_edges{box[1] - box[0], box[2] - box[0], box[4] - box[0]};
     for (std::size_t i = 0; i < 3; ++i) {
         if (separates(glm::cross(box_edges[i], box_edges[(i + 1) % 3]))) return true;
     }
-    if (separates(forward)) return true;
-
-    // The hull's edges: round the slab, across it, and from its corners to the light.
-    std::array<glm::dvec3, 16> hull_edges;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        hull_edges[count++] = hull[(i + 1) % 4] - hull[i];
-        hull_edges[count++] = hull[4 + i] - hull[i];
-    }
-    for (std::size_t i = 0; i < 8; ++i) hull_edges[count++] = directional ? light : light - hull[i];
-    for (std::size_t i = 0; i < 8; ++i) {
-        const std::size_t next = (i & 4U) + ((i + 1) & 3U);
-        if (separates(glm::cross(hull[next] - hull[i], hull_edges[8 + i]))) return true;
-    }
-    for (const glm::dvec3& edge : hull_edges) {
+    for (const glm::dvec3& edge : edges_) {
         for (const glm::dvec3& box_edge : box_edges) {
             if (separates(glm::cross(edge, box_edge))) return true;
         }
     }
     return false;
+}
+
+}  // namespace internal
+
+bool depth_pass_is_valid(const OrientedBounds& bounds, const glm::dvec4& light_world,
+                         const View& view) {
+    return internal::NearClip(light_world, view).is_clear_of(bounds);
 }
 
 }  // namespace gnomon::shadows

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Counts what a thread allocates with new, for functions that promise not to.
+// Counts what is allocated with new, for functions that promise not to, or not much.
 #pragma once
 
 #include <cstdint>
@@ -9,5 +9,8 @@ namespace gnomon::test {
 
 /// By this thread, since it began.
 [[nodiscard]] std::uint64_t allocation_count();
+
+/// Bytes that all threads asked for and have not given back, without what the allocator adds.
+[[nodiscard]] std::uint64_t allocated_bytes();
 
 }  // namespace gnomon::test

@@ -5,30 +5,28 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
-#include <vector>
 
-#include <gnomon/shadows/shadow_system.hpp>
-#include <gnomon/shadows/technique.hpp>
+#include <gnomon/shadows/volume.hpp>
 
 #include "pair.hpp"
 
 namespace gnomon::shadows::internal {
 
-/// A pair whose volume is drawn this frame.
+/// A pair that has a volume, of the light at hand.
 struct DrawnPair {
-    PairState* pair = nullptr;
-    OrientedBounds bounds;
+    std::uint32_t slot = 0;  ///< the caster's
+    const CasterState* caster = nullptr;
+    const Volume* volume = nullptr;
+    std::uint64_t revision = 0;
 };
 
-/// `draws` are the light's, one for each of `pairs`. Where more than `limit` layers cannot be ruled
-/// out, volumes that alone could exceed min(limit, 127) are replaced by their parts, and draws get
-/// batches of no more than that, ascending. Returns the number of batches. Cost: a sum over the
-/// pairs when that is within the limit or nothing changed; else O(n log n), and layer_bound() for
+/// The light's pairs with volumes, by caster key. Where more layers than `limit` cannot be ruled
+/// out, the light's pieces become draws in batches of no more than min(limit, 127) each, ascending,
+/// volumes that alone exceed that in parts; else it has none. Returns the number of batches. Cost:
+/// a comparison where nothing changed since the last call; else O(n log n), and layer_bound() for
 /// the volumes that changed.
-[[nodiscard]] std::uint32_t split_into_batches(LightState& light, std::uint32_t limit,
-                                               std::span<const DrawnPair> pairs,
-                                               std::vector<VolumeDraw>& draws);
+std::uint32_t split_into_batches(LightState& light, std::uint32_t limit,
+                                 std::span<const DrawnPair> pairs);
 
 }  // namespace gnomon::shadows::internal

@@ -4,93 +4,206 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include <gnomon/shadows/detector.hpp>
 #include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/layer_bound.hpp>
 #include <gnomon/shadows/shadow_system.hpp>
 #include <gnomon/shadows/silhouette.hpp>
+#include <gnomon/shadows/technique.hpp>
 #include <gnomon/shadows/volume.hpp>
 
 #include "local_light.hpp"
+#include "slots.hpp"
 
 namespace gnomon::shadows::internal {
 
-struct CasterState {
-    Caster caster;
+struct CasterState : SlotHead {
+    // What a submission is compared with comes first: few lines of the cache a caster.
+    bool in_depth_buffer = true;
+    NearCaps near_caps = NearCaps::Facing;
+    bool changed = false;  ///< in anything since the last finish()
+    bool moved = false;    ///< a bit of its pose changed since the last finish()
+    std::shared_ptr<const ShadowMesh> mesh;
     Pose pose;
     std::uint64_t pose_revision = 0;  ///< changes whenever a bit of the pose does
-    std::uint64_t frame = 0;          ///< last submitted in
+    std::uint64_t mesh_before = 0;    ///< its id, as of the last finish()
+    // A sphere round its bounds, in the world.
+    glm::dvec3 center{0.0};
+    double radius = 0.0;
 };
+
+[[nodiscard]] OrientedBounds bounds_of(const CasterState& caster);
+
+/// A part of a volume that alone could lay too many layers over a point.
+struct VolumePart {
+    std::shared_ptr<const Volume> volume;
+    std::uint64_t revision = 0;
+    std::uint32_t layers = 0;
+};
+
+/// What few pairs need, or for a while only.
+struct PairExtra {
+    /// Of a strategy that keeps state, until the pair has been at rest for a while.
+    std::unique_ptr<SilhouetteDetector> detector;
+    const SilhouetteStrategy* strategy = nullptr;  ///< the detector's
+    std::uint64_t detected_frame = 0;
+    /// The pair's volume where the draw list has no draw of it as a whole: parts are drawn instead.
+    std::shared_ptr<const Volume> whole;
+    std::uint64_t whole_revision = 0;
+    std::vector<VolumePart> parts;
+    /// Metres from the light to the nearest casting face, for finite views; negative until asked
+    /// for.
+    double nearest_face = -1.0;
+
+    [[nodiscard]] bool idle() const {
+        return detector == nullptr && whole == nullptr && parts.empty() && nearest_face < 0.0;
+    }
+};
+
+enum class PairFlag : std::uint8_t {
+    Known = 1,         ///< its volume was made, from what the others say
+    Flattened = 2,     ///< for a singular pose
+    Directional = 4,   ///< for a light infinitely far away
+    AvertedCaps = 8,   ///< Caster::near_caps
+    FiniteFar = 16,    ///< FarVertices
+    FromOutside = 32,  ///< seen_from_outside()
+    Bounded = 64,      ///< its layers are layer_bound(), not the quick one
+    Watched = 128,     ///< its detector is in the list of those that may rest
+};
+
+inline constexpr std::uint32_t no_draw = std::numeric_limits<std::uint32_t>::max();
+
+/// One for every pair, whether it casts or not: kept small. Its volume is where it is drawn from,
+/// in the draw list, or in `extra`; an empty one is nowhere.
+struct PairState {
+    /// The light in the caster's space, before rounding; in the world where flattened.
+    glm::dvec3 light_exact{0.0};
+    glm::vec3 detected{0.0F};  ///< the light that the facing was decided for
+    float margin = 0.0F;       ///< how far it may move from there
+    std::unique_ptr<PairExtra> extra;
+    std::uint32_t draw = no_draw;  ///< among its light's draws
+    /// The frame, modulo 65,536, in which the reason was not Unchanged last.
+    std::uint16_t changed = 0;
+    Reason reason = Reason::Unchanged;
+    std::uint8_t flags = 0;
+
+    [[nodiscard]] bool is(PairFlag flag) const {
+        return (flags & static_cast<unsigned>(flag)) != 0;
+    }
+    void set(PairFlag flag, bool on) {
+        const auto bit = static_cast<unsigned>(flag);
+        flags = static_cast<std::uint8_t>(on ? flags | bit : flags & ~bit);
+    }
+    PairExtra& more() {
+        if (extra == nullptr) extra = std::make_unique<PairExtra>();
+        return *extra;
+    }
+    void release_idle_extra() {
+        if (extra != nullptr && extra->idle()) extra.reset();
+    }
+};
+static_assert(sizeof(void*) != 8 || sizeof(PairState) == 56, "there may be millions of them");
 
 /// How a light's volumes were distributed last.
 struct LayerMemory {
     std::vector<std::uint64_t> revisions;  ///< of the light, each volume and each pose
-    std::vector<std::uint32_t> batches;    ///< of each draw, parts included; empty: not split
+    std::uint32_t batches = 1;
 };
 
-struct LightState {
+/// One draw of a light that is split into batches.
+struct Piece {
+    static constexpr std::uint32_t whole = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t caster = 0;    ///< its slot
+    std::uint32_t part = whole;  ///< of the pair's PairExtra::parts
+    std::uint32_t batch = 0;
+    bool first = true;  ///< of its pair's
+    bool operator==(const Piece&) const = default;
+};
+
+struct LightState : SlotHead {
     Light light;
-    LayerMemory layers;
-    std::uint64_t revision = 0;
-    std::uint64_t frame = 0;
-};
-
-/// How many layers the volume can lay over a point, and what it was split into.
-struct Layers {
-    enum class Known : std::uint8_t { Nothing, QuickBound, Bound };
-    struct Part {
-        std::shared_ptr<const Volume> volume;
-        std::uint64_t revision = 0;
-        std::uint32_t layers = 0;
-    };
-    Known known = Known::Nothing;
-    std::uint32_t most = 0;
-    std::vector<Part> parts = {};
-};
-
-struct PairState {
-    // What the volume was made from.
-    std::shared_ptr<const ShadowMesh> mesh;
-    std::shared_ptr<const Volume> volume;
-    std::uint64_t volume_revision = 0;
-    FarVertices far_vertices = FarVertices::AtInfinity;
-    NearCaps near_caps = NearCaps::Facing;
-    bool flattened = false;
-    /// Of a strategy that keeps state; else null.
-    std::unique_ptr<SilhouetteDetector> detector;
-    LightLocal detected;  ///< the light that the facing was decided for
-    double margin = 0.0;  ///< how far it may move from there
-    /// Metres from the light to the nearest casting face; negative until asked for.
-    double nearest_face = -1.0;
-    Layers layers;  ///< for the light where it is now
-    // What the pair looked like last.
-    LightLocal current;
-    glm::dvec4 current_exact{0.0};  ///< before rounding
-    std::uint64_t pose_revision = 0;
-    std::uint64_t light_revision = 0;
-    std::uint64_t frame = 0;
+    bool changed = false;        ///< in anything since the last finish()
+    bool moved = false;          ///< a bit of its position changed since the last finish()
+    std::uint64_t revision = 0;  ///< changes whenever a bit of the position does
+    // By caster slot; layers are 0 where there is no volume.
+    std::vector<PairState> pairs;
+    std::vector<std::uint32_t> layers;  ///< that a pair's volume can lay over a point
+    std::uint64_t culled = 0;           ///< pairs that are out of range
+    LayerMemory memory;
+    // In the draw list.
+    bool listed = false;
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    std::vector<Piece> pieces;  ///< one for each draw where the light is split, else empty
+    bool all_anew = false;      ///< this frame: none of its draws stays
+    bool gained = false;        ///< this frame: there are pairs that need a draw
+    bool touched = false;       ///< this frame: a pair's layers or where they lie may have changed
+    bool worked_on = false;     ///< this frame: a pair may have changed
 };
 
 /// What detection reuses from pair to pair.
 struct Scratch {
-    std::unique_ptr<SilhouetteDetector> detector;  ///< of a strategy that keeps no state
-    Facing facing;                                 ///< of singular poses
+    /// Of strategies that keep no state.
+    std::vector<std::pair<const SilhouetteStrategy*, std::unique_ptr<SilhouetteDetector>>>
+        detectors;
+    Facing facing;  ///< of singular poses
     Detection flattened;
     std::vector<FaceRun> runs;
     std::vector<std::int8_t> weights;
 };
 
+/// What is the same for all pairs of a frame.
+struct FrameTerms {
+    FarVertices far_vertices = FarVertices::AtInfinity;
+    const SilhouetteStrategy* strategy = nullptr;  ///< null: "auto"
+    std::uint64_t frame = 0;
+};
+
+/// A pair that may have changed, and what came of it.
+struct PairWork {
+    std::uint32_t light = 0;
+    std::uint32_t caster = 0;
+    std::uint32_t layers = 0;
+    bool was_culled = false;
+    bool had_volume = false;
+    std::shared_ptr<Volume> made;  ///< null: its volume stays what it was
+};
+
 /// Unique in the process, never 0.
 [[nodiscard]] std::uint64_t next_volume_revision();
 
-/// Brings the pair up to date and says why. Adds to the stats.
-Reason update_pair(PairState& pair, const CasterState& caster, const LightState& light,
-                   FarVertices far_vertices, const SilhouetteStrategy& strategy, Scratch& scratch,
-                   FrameStats& stats);
+/// What a strategy may be chosen by, beside the mesh.
+struct PairHistory {
+    bool is_new = true;
+    std::uint32_t frames_at_rest = 0;  ///< before this frame; not of a new pair
+};
+
+/// The strategy for one pair in one frame. This is where "auto" (`wanted` is null) decides.
+[[nodiscard]] const SilhouetteStrategy& choose_strategy(const SilhouetteStrategy* wanted,
+                                                        const ShadowMesh& mesh,
+                                                        const PairHistory& history);
+
+/// Brings the pair up to date: its reason, and in `work` a new volume where it needs one and its
+/// layers where they may be others. `volume` is the one it has, null for none or an empty one.
+/// Touches nothing but its arguments, so that pairs may be updated by several threads at a time.
+/// Adds to the stats.
+void update_pair(PairState& pair, const CasterState& caster, const LightState& light,
+                 const FrameTerms& terms, const Volume* volume, Scratch& scratch, PairWork& work,
+                 FrameStats& stats);
+
+/// The light in the caster's space, as the shader receives it.
+[[nodiscard]] LightLocal current_light(const PairState& pair, const LightState& light);
+
+/// Where the pair's layers are bounded.
+[[nodiscard]] LayerSpace space_of(const PairState& pair, const CasterState& caster,
+                                  const LightState& light);
 
 /// Distance from a point to the nearest of the faces that the volume's caps are made of, in world
 /// metres.

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+//
+// ShadowSystem::Frame::finish(): works on the pairs of what was written down as different, and on
+// nothing else.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <numeric>
+
+#include "internal/finite.hpp"
+#include "internal/system_state.hpp"
+
+namespace gnomon::shadows {
+
+using internal::CasterState;
+using internal::LightState;
+using internal::PairFlag;
+using internal::PairState;
+using internal::PairWork;
+using internal::Scratch;
+
+namespace {
+
+// Pairs at rest give their detectors back after this many frames, at most twice as many.
+constexpr std::uint64_t frames_to_rest = 64;
+
+bool same_view(const View& a, const View& b) {
+    return a.projection == b.projection &&
+           std::memcmp(&a.view_from_world, &b.view_from_world, sizeof a.view_from_world) == 0 &&
+           std::memcmp(&a.clip_from_view, &b.clip_from_view, sizeof a.clip_from_view) == 0;
+}
+
+bool out_of_range(const CasterState& caster, const Light& light) {
+    if (!light.range_m || light.position_world.w == 0.0) return false;
+    const double distance = glm::length(glm::dvec3(light.position_world) - caster.center);
+    return distance - caster.radius * (1.0 + 1e-9) > *light.range_m;
+}
+
+std::uint64_t next_list_revision() {
+    static std::atomic<std::uint64_t> next{1};
+    return next.fetch_add(1);
+}
+
+// A scratch that is nobody else's for as long as this lives.
+class Borrowed {
+public:
+    Borrowed(std::mutex& mutex, std::vector<std::unique_ptr<Scratch>>& unused)
+        : mutex_(mutex), unused_(unused) {
+        const std::lock_guard lock(mutex_);
+        if (!unused_.empty()) {
+            scratch_ = std::move(unused_.back());
+            unused_.pop_back();
+        } else {
+            scratch_ = std::make_unique<Scratch>();
+        }
+    }
+    Borrowed(const Borrowed&) = delete;
+    Borrowed& operator=(const Borrowed&) = delete;
+    ~Borrowed() {
+        const std::lock_guard lock(mutex_);
+        unused_.push_back(std::move(scratch_));
+    }
+    Scratch& operator*() { return *scratch_; }
+
+private:
+    std::mutex& mutex_;
+    std::vector<std::unique_ptr<Scratch>>& unused_;
+    std::unique_ptr<Scratch> scratch_;
+};
+
+template <class T>
+void give_back(std::vector<T>& reused) {
+    reused.clear();
+    if (reused.capacity() > 1'024) reused.shrink_to_fit();
+}
+
+void add(FrameStats& sum, const FrameStats& part) {
+    sum.pairs_redetected += part.pairs_redetected;
+    sum.detection.faces_tested += part.detection.faces_tested;
+    sum.detection.edges_tested += part.detection.edges_tested;
+    sum.detection.double_tests += part.detection.double_tests;
+    sum.detection.exact_tests += part.detection.exact_tests;
+    sum.detection.bytes_touched += part.detection.bytes_touched;
+    sum.detect_ms += part.detect_ms;
+    sum.build_ms += part.build_ms;
+    for (std::size_t i = 0; i < reason_count; ++i) sum.reasons[i] += part.reasons[i];
+}
+
+}  // namespace
+
+void ShadowSystem::State::run(std::size_t count,
+                              const std::function<void(std::size_t)>& task) const {
+    if (options.jobs && count > 1) {
+        options.jobs(count, task);
+    } else {
+        for (std::size_t i = 0; i < count; ++i) task(i);
+    }
+}
+
+void ShadowSystem::State::finish(const View& now) {
+    ++frame;
+    if (submission == Submission::Full) drop_unsubmitted();
+    if (frame % frames_to_rest == 0) let_detectors_rest();
+    const bool view_changed = !view || !same_view(*view, now);
+    if (!view_changed && !came_or_went && !lights_changed && changed_casters.empty()) {
+        if (!settled) settle();
+        return;
+    }
+    forget_reasons();
+    list.stats = {};
+    view = now;
+    const bool infinite = now.projection == ProjectionKind::InfinitePerspective;
+    const FarVertices far = infinite ? FarVertices::AtInfinity : FarVertices::Finite;
+    const bool all = far != far_vertices;
+    far_vertices = far;
+    casters.sort();
+    lights.sort();
+    collect_work(all);
+    update_pairs();
+    bool rearranged = place_results();
+    const auto start = std::chrono::steady_clock::now();
+    rearranged = split_lights() || rearranged;
+    list.stats.build_ms +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    rearranged = rearranged || came_or_went;
+    if (rearranged) rearrange();
+    const bool filled = fill(view_changed);
+    if (rearranged || filled || list.revision == 0) list.revision = next_list_revision();
+    count_draws();
+    count_pairs();
+    tidy_up();
+}
+
+// The first frame after a change in which nothing changes: nothing but the reasons does.
+void ShadowSystem::State::settle() {
+    forget_reasons();
+    FrameStats& stats = list.stats;
+    stats.pairs_redetected = 0;
+    stats.detection = {};
+    stats.detect_ms = 0.0;
+    stats.build_ms = 0.0;
+    stats.reasons = {};
+    count_pairs();
+    settled = true;
+    // Many thousand pairs that all changed once should not be paid for ever after.
+    give_back(work);
+    give_back(fills);
+    give_back(drawn);
+}
+
+void ShadowSystem::State::forget_reasons() {
+    for (const PairWork& item : work) {
+        LightState& light = lights[item.light];
+        if (item.caster >= light.pairs.size()) continue;  // gone, another in its place
+        PairState& pair = light.pairs[item.caster];
+        if (pair.reason != Reason::OutOfRange) pair.reason = Reason::Unchanged;
+        if (pair.draw != internal::no_draw) {
+            list.draws[light.first + pair.draw].reason = Reason::Unchanged;
+        }
+        if (!light.pieces.empty()) light.worked_on = true;
+    }
+    work.clear();
+    for (std::uint32_t l = 0; l < lights.end(); ++l) {
+        LightState& light = lights[l];
+        if (!light.worked_on) continue;
+        for (std::uint32_t i = 0; i < light.count; ++i) {
+            list.draws[light.first + i].reason = Reason::Unchanged;
+        }
+        light.worked_on = false;
+    }
+}
+
+void ShadowSystem::State::collect_work(bool all) {
+    std::vector<std::uint32_t>& changed = changed_casters;
+    std::erase_if(changed, [&](std::uint32_t c) { return !casters[c].changed; });
+    const auto by_key = [&](std::uint32_t a, std::uint32_t b) {
+        return casters[a].key < casters[b].key;
+    };
+    if (!std::is_sorted(changed.begin(), changed.end(), by_key)) {
+        std::sort(changed.begin(), changed.end(), by_key);
+    }
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    for (const std::uint32_t l : lights.by_key()) {
+        LightState& light = lights[l];
+        light.pairs.resize(casters.end());
+        light.layers.resize(casters.end());
+        const bool whole_row = all || light.changed;
+        for (const std::uint32_t c : whole_row ? casters.by_key() : changed) {
+            work.push_back({.light = l, .caster = c, .made = nullptr});
+        }
+    }
+}
+
+void ShadowSystem::State::update_pairs() {
+    // Tasks of a tenth of a millisecond or so: what one pair costs depends on its mesh.
+    constexpr std::uint64_t cost_of_task = 32'768;
+    constexpr std::uint64_t cost_of_pair = 64;
+    chunks.assign(1, 0);
+    std::uint64_t cost = 0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+        cost += cost_of_pair + casters[work[i].caster].mesh->faces().size();
+        if (cost < cost_of_task && i + 1 < work.size()) continue;
+        chunks.push_back(i + 1);
+        cost = 0;
+    }
+    std::vector<FrameStats> parts(chunks.size() - 1);
+    run(parts.size(), [&](std::size_t chunk) {
+        Borrowed scratch(scratch_mutex, scratches);
+        for (std::size_t i = chunks[chunk]; i < chunks[chunk + 1]; ++i) {
+            update_one(work[i], *scratch, parts[chunk]);
+        }
+    });
+    for (const FrameStats& part : parts) add(list.stats, part);
+}
+
+void ShadowSystem::State::update_one(PairWork& item, Scratch& scratch, FrameStats& stats) {
+    LightState& light = lights[item.light];
+    const CasterState& caster = casters[item.caster];
+    PairState& pair = light.pairs[item.caster];
+    const Volume* volume = volume_of(light, item.caster);
+    item.was_culled = pair.reason == Reason::OutOfRange;
+    item.had_volume = volume != nullptr;
+    if (!caster.pose.finite || !internal::is_finite(light.light.position_world) ||
+        out_of_range(caster, light.light)) {
+        pair = {};
+        pair.reason = Reason::OutOfRange;
+        return;
+    }
+    const internal::FrameTerms terms{far_vertices, strategy, frame};
+    internal::update_pair(pair, caster, light, terms, volume, scratch, item, stats);
+}
+
+// In the order of the work, whoever did it: revisions are the same whatever the threads. True where
+// draws come or go.
+bool ShadowSystem::State::place_results() {
+    bool rearranged = false;
+    for (PairWork& item : work) {
+        LightState& light = lights[item.light];
+        PairState& pair = light.pairs[item.caster];
+        const bool is_culled = pair.reason == Reason::OutOfRange;
+        if (item.was_culled) --light.culled;
+        if (is_culled) ++light.culled;
+        light.worked_on = true;
+        const bool changes = is_culled ? item.had_volume : pair.reason != Reason::Unchanged;
+        // Volumes that lay as they do may lie over others now.
+        if (casters[item.caster].moved || light.moved) light.touched = true;
+        if (changes) {
+            light.touched = true;
+            light.layers[item.caster] = item.layers;
+            if (pair.extra != nullptr) pair.extra->parts.clear();
+        }
+        if (item.made != nullptr) place_volume(light, pair, item);
+        const bool drawn = pair.draw != internal::no_draw;
+        if (drawn) origins[light.first + pair.draw].fill = DrawOrigin::Fill::All;
+        const bool has_volume = drawn || (pair.extra != nullptr && pair.extra->whole != nullptr);
+        rearranged = rearranged || item.had_volume != has_volume;
+        if (pair.extra == nullptr) continue;
+        if (pair.extra->detector != nullptr && !pair.is(PairFlag::Watched)) {
+            pair.set(PairFlag::Watched, true);
+            detectors.emplace_back(item.light, item.caster);
+        }
+        pair.release_idle_extra();
+    }
+    return rearranged;
+}
+
+void ShadowSystem::State::place_volume(LightState& light, PairState& pair, PairWork& item) {
+    const std::uint64_t revision = internal::next_volume_revision();
+    const bool empty = item.made->indices.empty();  // nothing faces anything: no shadow
+    if (pair.draw != internal::no_draw) {
+        VolumeDraw& draw = list.draws[light.first + pair.draw];
+        if (empty) {
+            pair.draw = internal::no_draw;
+        } else {
+            draw.volume = std::move(item.made);
+            draw.revision = revision;
+        }
+    } else if (!empty) {
+        pair.more().whole = std::move(item.made);
+        pair.extra->whole_revision = revision;
+        light.gained = true;
+    } else if (pair.extra != nullptr) {
+        pair.extra->whole = nullptr;
+    }
+    item.made = nullptr;
+}
+
+bool ShadowSystem::State::split_lights() {
+    bool rearranged = false;
+    for (const std::uint32_t l : lights.by_key()) {
+        LightState& light = lights[l];
+        if (!light.touched && !came_or_went) continue;
+        const bool was_split = !light.pieces.empty();
+        const std::uint64_t sum =
+            std::accumulate(light.layers.begin(), light.layers.end(), std::uint64_t{0});
+        if (sum <= options.max_layers) {
+            light.pieces.clear();
+            light.memory = {};
+        } else {
+            gather_drawn(light);
+            internal::split_into_batches(light, options.max_layers, drawn);
+        }
+        if (!was_split && light.pieces.empty()) continue;
+        if (!was_split) lift_volumes(light);
+        light.all_anew = true;
+        rearranged = true;
+    }
+    return rearranged;
+}
+
+void ShadowSystem::State::tidy_up() {
+    for (const std::uint32_t c : changed_casters) {
+        CasterState& caster = casters[c];
+        caster.changed = false;
+        caster.moved = false;
+        caster.mesh_before = caster.mesh->id();
+    }
+    changed_casters.clear();
+    for (const std::uint32_t l : lights.by_key()) {
+        LightState& light = lights[l];
+        light.changed = light.moved = false;
+        light.all_anew = light.gained = light.touched = light.worked_on = false;
+    }
+    lights_changed = false;
+    came_or_went = false;
+    settled = false;
+}
+
+void ShadowSystem::State::let_detectors_rest() {
+    std::erase_if(detectors, [&](const auto& place) {
+        const auto [l, c] = place;
+        if (c >= lights[l].pairs.size()) return true;
+        PairState& pair = lights[l].pairs[c];
+        if (!pair.is(PairFlag::Watched) || pair.extra == nullptr) return true;
+        if (frame - pair.extra->detected_frame < frames_to_rest) return false;
+        pair.extra->detector = nullptr;
+        pair.set(PairFlag::Watched, false);
+        pair.release_idle_extra();
+        return true;
+    });
+}
+
+// Of what was not worked on, all is unchanged.
+void ShadowSystem::State::count_pairs() {
+    FrameStats& stats = list.stats;
+    stats.silhouette = strategy != nullptr ? strategy->name : "brute_force";
+    stats.casters = casters.size();
+    stats.lights = lights.size();
+    stats.pairs = stats.casters * stats.lights;
+    stats.pairs_culled = 0;
+    for (const std::uint32_t l : lights.by_key()) stats.pairs_culled += lights[l].culled;
+    stats.pairs_reused = stats.pairs - stats.pairs_culled - stats.pairs_redetected;
+    auto& reasons = stats.reasons;
+    auto& unchanged = reasons[static_cast<std::size_t>(Reason::Unchanged)];
+    reasons[static_cast<std::size_t>(Reason::OutOfRange)] = stats.pairs_culled;
+    unchanged = 0;
+    unchanged = stats.pairs - std::accumulate(reasons.begin(), reasons.end(), std::uint64_t{0});
+}
+
+}  // namespace gnomon::shadows

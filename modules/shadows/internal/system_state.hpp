@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+//
+// What a ShadowSystem holds. Submission (shadow_system.cpp) writes down what differs; finish()
+// (frame.cpp) works on that alone, and keeps the draw list in step (draw_list.cpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include <gnomon/shadows/shadow_system.hpp>
+
+#include "batches.hpp"
+#include "near_clip.hpp"
+#include "pair.hpp"
+
+namespace gnomon::shadows {
+
+/// What the system knows of a draw beside what the list says.
+struct DrawOrigin {
+    enum class Fill : std::uint8_t { Not, View, All };  ///< what of the draw is to be written
+    std::uint32_t caster = 0;                           ///< its slot
+    std::uint32_t silhouette_edges = 0;  ///< of the pair; 0 for other parts than the first
+    bool first = true;                   ///< of its pair's draws
+    Fill fill = Fill::Not;
+};
+
+struct ShadowSystem::State {
+    SystemOptions options;
+    const SilhouetteStrategy* strategy = nullptr;  // null: "auto"
+
+    // Submission.
+    Submission submission = Submission::Full;
+    internal::Slots<internal::CasterState> casters;
+    internal::Slots<internal::LightState> lights;
+    std::vector<std::uint32_t> changed_casters;  // slots; may be free again, or twice
+    bool lights_changed = false;
+    bool came_or_went = false;  // casters or lights
+    std::uint64_t next_revision = 1;
+
+    // The last finish().
+    DrawList list;
+    std::vector<DrawOrigin> origins;    // of list.draws
+    std::vector<std::uint32_t> listed;  // slots, of list.lights
+    std::optional<View> view;
+    FarVertices far_vertices = FarVertices::AtInfinity;
+    std::vector<internal::PairWork> work;  // what may have a reason other than Unchanged
+    bool settled = false;                  // list says of itself that nothing changed
+    std::uint64_t frame = 0;
+
+    // Detectors that pairs hold, by light and caster.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> detectors;
+
+    // Reused from frame to frame.
+    std::mutex scratch_mutex;
+    std::vector<std::unique_ptr<internal::Scratch>> scratches;  // that no task uses
+    std::vector<internal::DrawnPair> drawn;
+    struct DrawToFill {
+        std::uint32_t draw;
+        std::uint32_t light;  // its place in list.lights
+    };
+    std::vector<DrawToFill> fills;
+    std::vector<std::size_t> chunks;  // where those of `work` or `fills` begin, and the end
+
+    // shadow_system.cpp
+    void submit(const Caster& caster);
+    void submit(const Light& light);
+    void drop_caster(std::uint32_t slot);
+    void drop_light(std::uint32_t slot);
+    void drop_unsubmitted();
+
+    // frame.cpp
+    void finish(const View& now);
+    void settle();
+    void forget_reasons();
+    void collect_work(bool all);
+    void update_pairs();
+    void update_one(internal::PairWork& item, internal::Scratch& scratch, FrameStats& stats);
+    [[nodiscard]] bool place_results();
+    void place_volume(internal::LightState& light, internal::PairState& pair,
+                      internal::PairWork& item);
+    [[nodiscard]] bool split_lights();
+    void tidy_up();
+    void let_detectors_rest();
+    void count_pairs();
+    /// task(i) for all i < count, by the host's runner where there is one.
+    void run(std::size_t count, const std::function<void(std::size_t)>& task) const;
+
+    // draw_list.cpp
+    [[nodiscard]] const Volume* volume_of(const internal::LightState& light,
+                                          std::uint32_t caster) const;
+    void gather_drawn(const internal::LightState& light);
+    void lift_volumes(internal::LightState& light);
+    void rearrange();
+    void drop_draws();
+    void make_room(std::size_t kept);
+    void make_draw(std::size_t at, internal::LightState& light, const internal::Piece& piece);
+    [[nodiscard]] bool fill(bool view_changed);
+    [[nodiscard]] bool fill_draw(std::uint32_t index, internal::LightState& light,
+                                 const internal::NearClip& clip,
+                                 const std::array<glm::dvec3, 8>& seen);
+    void count_draws();
+};
+
+}  // namespace gnomon::shadows
