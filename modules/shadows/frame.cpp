@@ -120,6 +120,7 @@ void ShadowSystem::State::finish(const View& now) {
     update_pairs();
     bool rearranged = place_results();
     const auto start = std::chrono::steady_clock::now();
+    put_into_grids();
     rearranged = split_lights() || rearranged;
     list.stats.build_ms +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -186,10 +187,14 @@ void ShadowSystem::State::collect_work(bool all) {
         light.pairs.resize(casters.end());
         light.layers.resize(casters.end());
         const bool whole_row = all || light.changed;
+        // What is easier made anew than kept in step.
+        if (whole_row || bounds_before.size() > casters.size() / 4) light.grid = nullptr;
         for (const std::uint32_t c : whole_row ? casters.by_key() : changed) {
             work.push_back({.light = l, .caster = c, .made = nullptr});
         }
     }
+    for (const auto& [caster, bounds] : bounds_before) take_from_grids(caster, bounds);
+    bounds_before.clear();
 }
 
 void ShadowSystem::State::update_pairs() {
@@ -286,20 +291,60 @@ void ShadowSystem::State::place_volume(LightState& light, PairState& pair, PairW
     item.made = nullptr;
 }
 
+// Of a caster as it was at the last finish(), by the bounds that it had.
+void ShadowSystem::State::take_from_grids(std::uint32_t caster, const OrientedBounds& bounds) {
+    for (std::uint32_t l = 0; l < lights.end(); ++l) {
+        LightState& light = lights[l];
+        if (caster >= light.layers.size()) continue;
+        if (light.grid != nullptr) light.grid->remove(bounds, light.layers[caster]);
+    }
+}
+
+void ShadowSystem::State::put_into_grids() {
+    for (const std::uint32_t l : lights.by_key()) {
+        LightState& light = lights[l];
+        if (light.grid == nullptr) continue;
+        for (const std::uint32_t c : changed_casters) {
+            light.grid->add(bounds_of(casters[c]), light.layers[c]);
+        }
+    }
+}
+
+// Whether more layers than can be counted may lie over a point; asked of all pairs' bounds alone.
+bool ShadowSystem::State::piles_up(LightState& light) {
+    const std::uint64_t sum =
+        std::accumulate(light.layers.begin(), light.layers.end(), std::uint64_t{0});
+    if (sum <= options.max_layers) {
+        light.grid = nullptr;
+        return false;
+    }
+    if (light.grid == nullptr) {
+        std::vector<internal::Footprint> footprints;
+        const glm::dvec4& position = light.light.position_world;
+        for (const std::uint32_t c : casters.by_key()) {
+            if (light.layers[c] == 0) continue;
+            append_footprints(bounds_of(casters[c]), position, light.layers[c], footprints);
+        }
+        light.grid =
+            std::make_unique<internal::LayerGrid>(position, footprints, options.max_layers);
+    }
+    if (light.grid->within_limit()) return false;
+    light.grid = nullptr;  // bounds proper are to come, and other layers with them
+    return true;
+}
+
 bool ShadowSystem::State::split_lights() {
     bool rearranged = false;
     for (const std::uint32_t l : lights.by_key()) {
         LightState& light = lights[l];
         if (!light.touched && !came_or_went) continue;
         const bool was_split = !light.pieces.empty();
-        const std::uint64_t sum =
-            std::accumulate(light.layers.begin(), light.layers.end(), std::uint64_t{0});
-        if (sum <= options.max_layers) {
-            light.pieces.clear();
-            light.memory = {};
-        } else {
+        if (piles_up(light)) {
             gather_drawn(light);
             internal::split_into_batches(light, options.max_layers, drawn);
+        } else {
+            light.pieces.clear();
+            light.memory = {};
         }
         if (!was_split && light.pieces.empty()) continue;
         if (!was_split) lift_volumes(light);

@@ -4,6 +4,7 @@
 // finish().
 #include <gnomon/shadows/shadow_system.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -68,7 +69,10 @@ void ShadowSystem::State::submit(const Caster& caster) {
     }
     const bool is_new = known.mesh == nullptr;
     if (is_new) came_or_went = true;
-    if (!known.changed) changed_casters.push_back(slot);
+    if (!known.changed) {
+        changed_casters.push_back(slot);
+        if (!is_new) bounds_before.emplace_back(slot, internal::bounds_of(known));
+    }
     known.changed = true;
     known.in_depth_buffer = caster.in_depth_buffer;
     known.near_caps = caster.near_caps;
@@ -98,6 +102,17 @@ void ShadowSystem::State::submit(const Light& light) {
 }
 
 void ShadowSystem::State::drop_caster(std::uint32_t slot) {
+    // Where it was at the last finish().
+    OrientedBounds bounds = internal::bounds_of(casters[slot]);
+    if (casters[slot].changed) {
+        const auto found = std::ranges::find(bounds_before, slot,
+                                             &std::pair<std::uint32_t, OrientedBounds>::first);
+        if (found != bounds_before.end()) {
+            bounds = found->second;
+            bounds_before.erase(found);
+        }
+    }
+    take_from_grids(slot, bounds);
     for (std::uint32_t l = 0; l < lights.end(); ++l) {
         LightState& light = lights[l];
         if (slot >= light.pairs.size()) continue;
@@ -179,7 +194,9 @@ const DrawList& ShadowSystem::Frame::finish(const View& view) && {
 SystemMemory ShadowSystem::memory() const {
     const State& s = *state_;
     SystemMemory memory;
-    memory.casters = s.casters.memory_bytes() + s.changed_casters.capacity() * 4;
+    memory.casters = s.casters.memory_bytes() +
+                     s.changed_casters.capacity() * sizeof(std::uint32_t) +
+                     s.bounds_before.capacity() * sizeof(s.bounds_before[0]);
     memory.lights = s.lights.memory_bytes() + s.listed.capacity() * 4;
     const auto size_of = [](const Volume& volume) {
         return sizeof(Volume) + volume.indices.capacity() * sizeof(std::uint32_t);
@@ -187,7 +204,8 @@ SystemMemory ShadowSystem::memory() const {
     for (std::uint32_t l = 0; l < s.lights.end(); ++l) {
         const LightState& light = s.lights[l];
         memory.lights += light.memory.revisions.capacity() * sizeof(std::uint64_t) +
-                         light.pieces.capacity() * sizeof(internal::Piece);
+                         light.pieces.capacity() * sizeof(internal::Piece) +
+                         (light.grid != nullptr ? light.grid->memory_bytes() : 0);
         memory.pairs += light.pairs.capacity() * sizeof(PairState) +
                         light.layers.capacity() * sizeof(std::uint32_t);
         for (const PairState& pair : light.pairs) {

@@ -19,6 +19,7 @@
 #include <gnomon/shadows/technique.hpp>
 #include <gnomon/shadows/volume.hpp>
 
+#include "layer_grid.hpp"
 #include "local_light.hpp"
 #include "slots.hpp"
 
@@ -137,6 +138,7 @@ struct LightState : SlotHead {
     std::vector<std::uint32_t> layers;  ///< that a pair's volume can lay over a point
     std::uint64_t culled = 0;           ///< pairs that are out of range
     LayerMemory memory;
+    std::unique_ptr<LayerGrid> grid;  ///< of all pairs' layers, while there are many; or null
     // In the draw list.
     bool listed = false;
     std::uint32_t first = 0;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <gnomon/shadows/shadow_system.hpp>
@@ -38,6 +39,7 @@ struct ShadowSystem::State {
     internal::Slots<internal::CasterState> casters;
     internal::Slots<internal::LightState> lights;
     std::vector<std::uint32_t> changed_casters;  // slots; may be free again, or twice
+    std::vector<std::pair<std::uint32_t, OrientedBounds>> bounds_before;  // of those not new
     bool lights_changed = false;
     bool came_or_went = false;  // casters or lights
     std::uint64_t next_revision = 1;
@@ -83,6 +85,9 @@ struct ShadowSystem::State {
     [[nodiscard]] bool place_results();
     void place_volume(internal::LightState& light, internal::PairState& pair,
                       internal::PairWork& item);
+    void take_from_grids(std::uint32_t caster, const OrientedBounds& bounds);
+    void put_into_grids();
+    [[nodiscard]] bool piles_up(internal::LightState& light);
     [[nodiscard]] bool split_lights();
     void tidy_up();
     void let_detectors_rest();
