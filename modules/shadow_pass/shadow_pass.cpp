@@ -119,6 +119,11 @@ std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& 
     return runs;
 }
 
+bool is_same_view(const shadows::View& a, const shadows::View& b) {
+    return a.projection == b.projection && a.view_from_world == b.view_from_world &&
+           a.clip_from_view == b.clip_from_view;
+}
+
 // The volume's indices, and behind them one line per side: the near edge that it stands on.
 std::vector<std::uint32_t> with_silhouette_lines(const shadows::Volume& volume) {
     std::vector<std::uint32_t> result = volume.indices;
@@ -165,6 +170,9 @@ struct ShadowPass::State {
     std::vector<std::uint64_t> extruded_sizes;
     internal::IndexArena indices;
     std::uint64_t generation = 0;
+    // What was prepared last; 0 for a list of no system, or after a failure.
+    std::uint64_t prepared_revision = 0;
+    shadows::View prepared_view;
 
     struct Recorded {
         gpu::BufferId vertices;
@@ -416,6 +424,12 @@ ShadowPass::~ShadowPass() = default;
 
 Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& view) {
     State& s = *state_;
+    if (list.revision != 0 && list.revision == s.prepared_revision &&
+        is_same_view(view, s.prepared_view)) {
+        s.stats.uploaded_bytes = 0;
+        return {};
+    }
+    s.prepared_revision = 0;
     ++s.generation;
     s.stats = {};
     s.recorded.clear();
@@ -458,6 +472,8 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
     }
     if (const Status written = s.write_uniforms(list, view); !written) return written;
     s.stats.index_bytes_held = s.indices.indices_in_use() * sizeof(std::uint32_t);
+    s.prepared_revision = list.revision;
+    s.prepared_view = view;
     return {};
 }
 

@@ -104,8 +104,9 @@ public:
     ShadowPass& operator=(ShadowPass&&) noexcept;
     ~ShadowPass();
 
-    /// Uploads what the list needs and the GPU does not have: nothing where nothing moved but 256
-    /// bytes a volume of matrices. The list is remembered until the next call.
+    /// Uploads what the list needs and the GPU does not have: where nothing moved but the camera,
+    /// 256 bytes a volume of matrices. Nothing is done for the list of the last call
+    /// (DrawList::revision) and the same view. The list is remembered until the next call.
     [[nodiscard]] Status prepare(const shadows::DrawList& list, const shadows::View& view);
 
     /// Records the volumes of list.lights[light]. The pass's stencil must have been cleared to 0;

@@ -137,6 +137,25 @@ TEST(IdlePairs, GiveEverythingBack) {
     EXPECT_EQ(test::allocated_bytes(), before);
 }
 
+TEST(IdlePairs, GiveTheirDetectorsBackAfterAWhile) {
+    for (const SilhouetteStrategy& strategy : silhouette_strategies()) {
+        SCOPED_TRACE(std::string(strategy.name));
+        Field field(50, 2);
+        ShadowSystem system = *ShadowSystem::create({.silhouette = strategy.name});
+        for (int round = 0; round < 3; ++round) {
+            field.lights[1].position_world.y -= 45.0;
+            const DrawList& list = field.submit(system);
+            EXPECT_GT(list.stats.pairs_redetected, 0U);
+            EXPECT_EQ(list.stats.silhouette, strategy.name);
+            EXPECT_EQ(system.memory().extras > 0, strategy.keeps_state);
+            for (int i = 0; i < 60; ++i) (void)field.submit(system);
+            EXPECT_EQ(system.memory().extras > 0, strategy.keeps_state);
+            for (int i = 0; i < 70; ++i) (void)field.submit(system);
+            EXPECT_EQ(system.memory().extras, 0U);
+        }
+    }
+}
+
 TEST(IdlePairs, SlotsAreUsedAgain) {
     Field field(200, 2);
     ShadowSystem system = *ShadowSystem::create();

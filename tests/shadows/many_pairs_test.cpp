@@ -13,6 +13,7 @@
 #include <numeric>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -215,11 +216,26 @@ struct World {
     }
 };
 
-class ManyPairs : public testing::TestWithParam<std::uint32_t> {};
+// SystemOptions::max_layers and silhouette.
+class ManyPairs : public testing::TestWithParam<std::tuple<std::uint32_t, std::string>> {
+protected:
+    [[nodiscard]] static std::uint32_t max_layers() { return std::get<0>(GetParam()); }
+    [[nodiscard]] static SystemOptions options() {
+        return {.silhouette = std::get<1>(GetParam()), .max_layers = max_layers()};
+    }
+};
+
+std::vector<std::string> strategies() {
+    std::vector<std::string> names{"auto"};
+    for (const SilhouetteStrategy& strategy : silhouette_strategies()) {
+        names.emplace_back(strategy.name);
+    }
+    return names;
+}
 
 TEST_P(ManyPairs, GiveTheListOfASystemThatSawNothingBefore) {
     GNOMON_RANDOM(random);
-    const SystemOptions options{.max_layers = GetParam()};
+    const SystemOptions options = ManyPairs::options();
     std::uint64_t reused = 0;
     for (int run = 0; run < 12; ++run) {
         World world(random);
@@ -231,7 +247,7 @@ TEST_P(ManyPairs, GiveTheListOfASystemThatSawNothingBefore) {
         ShadowSystem threaded = *ShadowSystem::create(threads);
         for (int step = 0; step < 60; ++step) {
             SCOPED_TRACE(testing::Message() << "run " << run << ", step " << step);
-            ShadowSystem fresh = *ShadowSystem::create(options);
+            ShadowSystem fresh = *ShadowSystem::create({.max_layers = max_layers()});
             const DrawList& expected = world.full(fresh);
             const DrawList& list = world.full(full);
             expect_same(list, expected);
@@ -251,7 +267,7 @@ TEST_P(ManyPairs, GiveTheListOfASystemThatSawNothingBefore) {
 TEST_P(ManyPairs, SayWhyEachIsWhatItIsAndWhetherTheListIsAnother) {
     GNOMON_RANDOM(random);
     World world(random);
-    ShadowSystem system = *ShadowSystem::create({.max_layers = GetParam()});
+    ShadowSystem system = *ShadowSystem::create(options());
     std::uint64_t same = 0;
     std::uint64_t other = 0;
     DrawList before = world.full(system);
@@ -266,7 +282,7 @@ TEST_P(ManyPairs, SayWhyEachIsWhatItIsAndWhetherTheListIsAnother) {
         std::pair<std::uint64_t, std::uint64_t> last{~0ULL, ~0ULL};
         for (const VolumeDraw& draw : list.draws) {
             const bool part = draw.batch > 0 || list.lights.size() != world.lights.size();
-            if (GetParam() == 255 && !part) {
+            if (max_layers() == 255 && !part) {
                 const bool kept = known[{draw.light, draw.caster}] == draw.volume;
                 const bool says_kept =
                     draw.reason == Reason::Unchanged || draw.reason == Reason::WithinMargin;
@@ -277,7 +293,7 @@ TEST_P(ManyPairs, SayWhyEachIsWhatItIsAndWhetherTheListIsAnother) {
             }
             last = {draw.light, draw.caster};
         }
-        for (std::size_t r = 0; GetParam() == 255 && r < reason_count; ++r) {
+        for (std::size_t r = 0; max_layers() == 255 && r < reason_count; ++r) {
             ASSERT_LE(reasons[r], list.stats.reasons[r]) << to_string(static_cast<Reason>(r));
         }
         bool equal =
@@ -312,7 +328,13 @@ TEST_P(ManyPairs, SayWhyEachIsWhatItIsAndWhetherTheListIsAnother) {
     EXPECT_GT(other, 50U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Layers, ManyPairs, testing::Values(2U, 12U, 255U));
+INSTANTIATE_TEST_SUITE_P(Options, ManyPairs,
+                         testing::Combine(testing::Values(2U, 12U, 255U),
+                                          testing::ValuesIn(strategies())),
+                         [](const auto& row) {
+                             return "layers_" + std::to_string(std::get<0>(row.param)) + "_" +
+                                    std::get<1>(row.param);
+                         });
 
 // Of the draws, by revision: systems of one process share the numbers.
 std::vector<std::size_t> order_of_revisions(const DrawList& list) {
