@@ -22,6 +22,9 @@ using internal::Scratch;
 
 namespace {
 
+// Fewer are summed up sooner than a thread wakes.
+constexpr std::size_t casters_of_task = 1'000;
+
 // Pairs at rest give their detectors back after this many frames, at most twice as many.
 constexpr std::uint64_t frames_to_rest = 64;
 
@@ -334,12 +337,22 @@ bool ShadowSystem::State::piles_up(LightState& light) {
 }
 
 bool ShadowSystem::State::split_lights() {
-    bool rearranged = false;
+    std::vector<LightState*> touched;
     for (const std::uint32_t l : lights.by_key()) {
-        LightState& light = lights[l];
-        if (!light.touched && !came_or_went) continue;
+        if (lights[l].touched || came_or_went) touched.push_back(&lights[l]);
+    }
+    std::vector<std::uint8_t> pile_up(touched.size());
+    const auto ask = [&](std::size_t i) { pile_up[i] = piles_up(*touched[i]) ? 1 : 0; };
+    if (casters.size() >= casters_of_task) {
+        run(touched.size(), ask);
+    } else {
+        for (std::size_t i = 0; i < touched.size(); ++i) ask(i);
+    }
+    bool rearranged = false;
+    for (std::size_t i = 0; i < touched.size(); ++i) {
+        LightState& light = *touched[i];
         const bool was_split = !light.pieces.empty();
-        if (piles_up(light)) {
+        if (pile_up[i] != 0) {
             gather_drawn(light);
             internal::split_into_batches(light, options.max_layers, drawn);
         } else {

@@ -94,7 +94,9 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
     const auto detected = Clock::now();
 
     // A detector of the pair's own, which found what it had found for the volume that there is.
-    const bool same = same_kind && !found.changed && strategy.keeps_state && !caster.pose.singular;
+    const bool by_its_own = strategy.keeps_state && !caster.pose.singular;
+    const bool same = same_kind && by_its_own && pair.extra->detector_is_current && !found.changed;
+    if (pair.extra != nullptr) pair.extra->detector_is_current = by_its_own;
     if (!same) {
         auto volume = std::make_shared<Volume>();
         scratch.weights.resize(mesh.faces().size());

@@ -55,6 +55,7 @@ struct PairExtra {
     std::unique_ptr<SilhouetteDetector> detector;
     const SilhouetteStrategy* strategy = nullptr;  ///< the detector's
     std::uint64_t detected_frame = 0;
+    bool detector_is_current = false;  ///< the pair's volume is made of what it found last
     /// The pair's volume where the draw list has no draw of it as a whole: parts are drawn instead.
     std::shared_ptr<const Volume> whole;
     std::uint64_t whole_revision = 0;

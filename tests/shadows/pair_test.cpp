@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+//
+// One pair by itself: with a detector of its own, which remembers.
+#include "internal/pair.hpp"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "tests/shadows/random_meshes.hpp"
+
+namespace gnomon::shadows::internal {
+namespace {
+
+int detectors = 0;
+
+// Says truly whether it found what it had found before.
+class Remembering final : public SilhouetteDetector {
+public:
+    Remembering() { ++detectors; }
+    ~Remembering() override { --detectors; }
+    const Detection& detect(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) override {
+        Detection now = plain_->detect(mesh, light, near_caps);
+        now.changed = mesh_ != mesh.id() || now.casting != found_.casting ||
+                      now.silhouette != found_.silhouette;
+        mesh_ = mesh.id();
+        found_ = std::move(now);
+        return found_;
+    }
+    [[nodiscard]] std::size_t memory_bytes() const override { return sizeof *this; }
+
+private:
+    std::unique_ptr<SilhouetteDetector> plain_ = find_strategy("brute_force")->create();
+    std::uint64_t mesh_ = 0;
+    Detection found_;
+};
+
+const SilhouetteStrategy remembering{
+    "remembering", "for tests", true,
+    [] { return std::unique_ptr<SilhouetteDetector>(std::make_unique<Remembering>()); }};
+
+struct OnePair {
+    CasterState caster;
+    LightState light;
+    PairState pair;
+    Scratch scratch;
+    FrameTerms terms{.strategy = &remembering};
+    std::shared_ptr<Volume> volume;
+
+    OnePair() {
+        caster.mesh = test::build(test::box());
+        caster.pose = make_pose(glm::dmat4(1.0));
+    }
+    // True where there is a new volume.
+    bool update(const glm::dvec4& position) {
+        FrameStats stats;
+        ++terms.frame;
+        light.moved = light.light.position_world != position;
+        light.light.position_world = position;
+        PairWork work;
+        update_pair(pair, caster, light, terms, volume.get(), scratch, work, stats);
+        caster.mesh_before = caster.mesh->id();
+        if (work.made == nullptr) return false;
+        volume = work.made;
+        return true;
+    }
+};
+
+TEST(Pair, KeepsTheVolumeWhereItsOwnDetectorFindsTheSame) {
+    OnePair one;
+    EXPECT_TRUE(one.update({3, 4, 5, 1}));
+    EXPECT_EQ(one.pair.reason, Reason::New);
+    EXPECT_FALSE(one.update({3.5, 4, 5, 1}));
+    EXPECT_EQ(one.pair.reason, Reason::WithinMargin);
+    EXPECT_FALSE(one.update({30, 40, 50, 1})) << "far beyond the margin, and the same silhouette";
+    EXPECT_EQ(one.pair.reason, Reason::LightMoved);
+    EXPECT_EQ(one.pair.detected, glm::vec3(30, 40, 50));
+    EXPECT_TRUE(one.update({0.5, 40, 50, 1}));
+    // The same faces, but a far cap more or less.
+    EXPECT_TRUE(one.update({0.5, 40, 50, 0}));
+    EXPECT_EQ(one.volume->far_cap.count, 0U);
+    one.terms.far_vertices = FarVertices::Finite;
+    EXPECT_TRUE(one.update({0.5, 40, 50, 0}));
+    EXPECT_EQ(one.pair.reason, Reason::ProjectionChanged);
+    EXPECT_GT(one.volume->far_cap.count, 0U);
+}
+
+TEST(Pair, ADetectorIsTheirsAloneAndGoesWithThem) {
+    {
+        OnePair one;
+        OnePair other;
+        (void)one.update({3, 4, 5, 1});
+        (void)other.update({3, 4, 5, 1});
+        EXPECT_EQ(detectors, 2);
+        // Another strategy takes its place.
+        one.terms.strategy = find_strategy("brute_force");
+        EXPECT_TRUE(one.update({0.5, 4, 5, 1}));
+        one.terms.strategy = &remembering;
+        EXPECT_TRUE(one.update({3, 4, 5, 1})) << "what it found last is not what there is now";
+        EXPECT_EQ(detectors, 2);
+        other.pair = {};
+        EXPECT_EQ(detectors, 1);
+    }
+    EXPECT_EQ(detectors, 0);
+}
+
+TEST(Pair, AChoiceIsMadeByWhatWasWanted) {
+    const auto box = test::build(test::box());
+    EXPECT_EQ(&choose_strategy(&remembering, *box, {}), &remembering);
+    EXPECT_NE(find_strategy(choose_strategy(nullptr, *box, {}).name), nullptr) << "auto";
+}
+
+}  // namespace
+}  // namespace gnomon::shadows::internal
