@@ -10,6 +10,11 @@ std::string to_json(const RunRecord& run) {
     Json frames = Json::array();
     for (const FrameRecord& frame : run.frames) {
         const shadows::FrameStats& s = frame.shadows;
+        Json choices = Json::object();
+        for (std::size_t i = 0; i < s.choices.size(); ++i) {
+            if (s.choices[i] > 0)
+                choices[std::string(to_string(static_cast<shadows::Choice>(i)))] = s.choices[i];
+        }
         Json reasons = Json::object();
         for (std::size_t i = 0; i < s.reasons.size(); ++i) {
             if (s.reasons[i] > 0)
@@ -36,6 +41,7 @@ std::string to_json(const RunRecord& run) {
                           {"draw_calls", frame.draw_calls},
                           {"stencil_fragments", nullptr},
                           {"silhouette", std::string(s.silhouette)},
+                          {"silhouette_choices", choices},
                           {"reasons", reasons}});
     }
     const Json json{{"backend", run.caps.backend},

@@ -85,6 +85,7 @@ void add(FrameStats& sum, const FrameStats& part) {
     sum.detection.double_tests += part.detection.double_tests;
     sum.detection.exact_tests += part.detection.exact_tests;
     sum.detection.bytes_touched += part.detection.bytes_touched;
+    for (std::size_t i = 0; i < choice_count; ++i) sum.choices[i] += part.choices[i];
     sum.detect_ms += part.detect_ms;
     sum.build_ms += part.build_ms;
     for (std::size_t i = 0; i < reason_count; ++i) sum.reasons[i] += part.reasons[i];
@@ -402,7 +403,7 @@ void ShadowSystem::State::let_detectors_rest() {
 // Of what was not worked on, all is unchanged.
 void ShadowSystem::State::count_pairs() {
     FrameStats& stats = list.stats;
-    stats.silhouette = strategy != nullptr ? strategy->name : "brute_force";
+    stats.silhouette = strategy != nullptr ? strategy->name : automatic_strategy().name;
     stats.casters = casters.size();
     stats.lights = lights.size();
     stats.pairs = stats.casters * stats.lights;

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "internal/strategies.hpp"
+
 namespace gnomon::shadows::internal {
 
 namespace {
@@ -82,19 +84,20 @@ SilhouetteDetector& detector_of(PairState& pair, const SilhouetteStrategy& strat
 
 // `same_kind`: the volume that the pair has was made on the same terms, for another light.
 void detect(PairState& pair, const CasterState& caster, const LightState& light,
-            const FrameTerms& terms, const SilhouetteStrategy& strategy, bool same_kind,
-            Scratch& scratch, PairWork& work, FrameStats& stats) {
+            const FrameTerms& terms, const ChosenStrategy& chosen, bool same_kind, Scratch& scratch,
+            PairWork& work, FrameStats& stats) {
     const ShadowMesh& mesh = *caster.mesh;
     const LightLocal current = current_light(pair, light);
     const auto start = Clock::now();
-    const Detection& found = caster.pose.singular
+    SilhouetteDetector* detector =
+        caster.pose.singular ? nullptr : &detector_of(pair, *chosen.strategy, terms.frame, scratch);
+    const Detection& found = detector == nullptr
                                  ? detect_flattened(caster, light, scratch)
-                                 : detector_of(pair, strategy, terms.frame, scratch)
-                                       .detect(mesh, current, caster.near_caps);
+                                 : detector->detect(mesh, current, caster.near_caps);
     const auto detected = Clock::now();
 
     // A detector of the pair's own, which found what it had found for the volume that there is.
-    const bool by_its_own = strategy.keeps_state && !caster.pose.singular;
+    const bool by_its_own = detector != nullptr && chosen.strategy->keeps_state;
     const bool same = same_kind && by_its_own && pair.extra->detector_is_current && !found.changed;
     if (pair.extra != nullptr) pair.extra->detector_is_current = by_its_own;
     if (!same) {
@@ -121,6 +124,9 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
     stats.detection.double_tests += found.stats.double_tests;
     stats.detection.exact_tests += found.stats.exact_tests;
     stats.detection.bytes_touched += found.stats.bytes_touched;
+    const Choice by_detector = detector == nullptr ? Choice::ByName : detector->choice();
+    ++stats.choices[static_cast<std::size_t>(by_detector == Choice::ByName ? chosen.choice
+                                                                           : by_detector)];
     ++stats.pairs_redetected;
 }
 
@@ -165,11 +171,19 @@ LightLocal current_light(const PairState& pair, const LightState& light) {
         glm::vec4(glm::vec3(pair.light_exact), static_cast<float>(light.light.position_world.w))};
 }
 
-const SilhouetteStrategy& choose_strategy(const SilhouetteStrategy* wanted,
-                                          const ShadowMesh& /*mesh*/,
-                                          const PairHistory& /*history*/) {
-    // As long as there is one strategy alone, there is nothing to choose by.
-    return wanted != nullptr ? *wanted : *find_strategy("brute_force");
+ChosenStrategy choose_strategy(const SilhouetteStrategy* wanted, const ShadowMesh& mesh,
+                               const PairHistory& history) {
+    if (wanted != nullptr) return {wanted, Choice::ByName};
+    // So few that remembering anything of them costs more than looking at them.
+    constexpr std::size_t a_handful = 512;
+    const bool moves_on = !history.is_new && history.frames_at_rest == 0;
+    if (moves_on && !mesh.is_deformed() && mesh.faces().size() >= a_handful) {
+        return {&automatic_strategy(), Choice::ByName};
+    }
+    static const SilhouetteStrategy* const all = find_strategy("simd");
+    static const SilhouetteStrategy* const search = find_strategy("dual_bvh");
+    const Choice choice = choose_for_jump(mesh);
+    return {choice == Choice::Jump ? search : all, choice};
 }
 
 void update_pair(PairState& pair, const CasterState& caster, const LightState& light,

@@ -141,7 +141,7 @@ void ShadowSystem::State::drop_unsubmitted() {
 
 Result<ShadowSystem> ShadowSystem::create(const SystemOptions& options) {
     const SilhouetteStrategy* strategy = find_strategy(options.silhouette);
-    if (strategy == nullptr && options.silhouette != "auto") {
+    if (strategy == nullptr) {
         std::string names = "auto";
         for (const auto& s : silhouette_strategies()) names += ", " + std::string(s.name);
         return fail(ErrorCode::InvalidInput, "There is no silhouette strategy named \"" +
@@ -155,7 +155,7 @@ Result<ShadowSystem> ShadowSystem::create(const SystemOptions& options) {
     }
     auto state = std::make_unique<State>();
     state->options = options;
-    state->strategy = strategy;
+    state->strategy = strategy == &automatic_strategy() ? nullptr : strategy;
     return ShadowSystem(std::move(state));
 }
 

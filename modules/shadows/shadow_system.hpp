@@ -98,7 +98,7 @@ struct LightDraws {
 };
 
 struct FrameStats {
-    std::string_view silhouette;  ///< the strategy that was used, by name
+    std::string_view silhouette;  ///< SystemOptions::silhouette; `choices` has what "auto" chose
     std::uint64_t casters = 0;
     std::uint64_t lights = 0;
     std::uint64_t pairs = 0;
@@ -112,6 +112,7 @@ struct FrameStats {
                                          ///< none was split
     std::uint64_t split_lights = 0;      ///< lights with more than one batch
     DetectionStats detection;
+    std::array<std::uint64_t, choice_count> choices{};  ///< redetected pairs, by Choice
     double detect_ms = 0.0;  ///< facing and silhouettes; of all threads together
     double build_ms = 0.0;   ///< index ranges, parts included; of all threads together
     std::array<std::uint64_t, reason_count> reasons{};  ///< pairs, by Reason

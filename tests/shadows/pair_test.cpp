@@ -106,8 +106,27 @@ TEST(Pair, ADetectorIsTheirsAloneAndGoesWithThem) {
 
 TEST(Pair, AChoiceIsMadeByWhatWasWanted) {
     const auto box = test::build(test::box());
-    EXPECT_EQ(&choose_strategy(&remembering, *box, {}), &remembering);
-    EXPECT_NE(find_strategy(choose_strategy(nullptr, *box, {}).name), nullptr) << "auto";
+    EXPECT_EQ(choose_strategy(&remembering, *box, {}).strategy, &remembering);
+    EXPECT_EQ(choose_strategy(nullptr, *box, {}).choice, Choice::FewFaces);
+}
+
+TEST(Pair, OnlyWhatMovesOnGetsADetectorOfItsOwn) {
+    const auto box = test::build(test::box());
+    const auto small = test::build(test::sphere(20, 30));
+    const auto large = test::build(test::sphere(80, 100));
+    const PairHistory at_rest{.is_new = false, .frames_at_rest = 3};
+    const PairHistory moving{.is_new = false, .frames_at_rest = 0};
+    EXPECT_EQ(choose_strategy(nullptr, *large, {}).strategy, find_strategy("dual_bvh"));
+    EXPECT_EQ(choose_strategy(nullptr, *large, {}).choice, Choice::Jump);
+    EXPECT_EQ(choose_strategy(nullptr, *large, at_rest).choice, Choice::Jump);
+    EXPECT_EQ(choose_strategy(nullptr, *large, moving).strategy, &automatic_strategy());
+    EXPECT_EQ(choose_strategy(nullptr, *small, at_rest).strategy, find_strategy("simd"));
+    EXPECT_EQ(choose_strategy(nullptr, *small, moving).strategy, &automatic_strategy());
+    EXPECT_EQ(choose_strategy(nullptr, *box, moving).strategy, find_strategy("simd"));
+    const auto deformed = large->deformed(test::sphere(80, 100).positions);
+    ASSERT_TRUE(deformed);
+    EXPECT_EQ(choose_strategy(nullptr, **deformed, moving).strategy, find_strategy("simd"));
+    EXPECT_EQ(choose_strategy(nullptr, **deformed, moving).choice, Choice::Deforming);
 }
 
 }  // namespace

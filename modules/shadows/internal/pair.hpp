@@ -188,10 +188,15 @@ struct PairHistory {
     std::uint32_t frames_at_rest = 0;  ///< before this frame; not of a new pair
 };
 
-/// The strategy for one pair in one frame. This is where "auto" (`wanted` is null) decides.
-[[nodiscard]] const SilhouetteStrategy& choose_strategy(const SilhouetteStrategy* wanted,
-                                                        const ShadowMesh& mesh,
-                                                        const PairHistory& history);
+/// The strategy for one pair in one frame, and why it is that. Where `wanted` is null this is where
+/// "auto" decides: a pair that moves again and again gets a detector of its own, which decides from
+/// then on; all others are served by one that keeps no state.
+struct ChosenStrategy {
+    const SilhouetteStrategy* strategy = nullptr;
+    Choice choice = Choice::ByName;  ///< unless the detector knows better
+};
+[[nodiscard]] ChosenStrategy choose_strategy(const SilhouetteStrategy* wanted,
+                                             const ShadowMesh& mesh, const PairHistory& history);
 
 /// Brings the pair up to date: its reason, and in `work` a new volume where it needs one and its
 /// layers where they may be others. `volume` is the one it has, null for none or an empty one.

@@ -15,6 +15,9 @@ namespace gnomon::shadows::internal {
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> certificates_detector();
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> automatic_detector();
 
+/// What "auto" does about a light that went far, before it knows anything of the mesh but its size.
+[[nodiscard]] Choice choose_for_jump(const ShadowMesh& mesh);
+
 /// The bytes that a detection's lists hold.
 [[nodiscard]] std::size_t memory_of(const Detection& detection);
 /// What a light casts that is not finite.

@@ -56,11 +56,10 @@ bool Automatic::is_small_step(LightLocal light) const {
 }
 
 Choice Automatic::choose(const ShadowMesh& mesh, LightLocal light) const {
-    if (mesh.is_deformed()) return Choice::Deforming;
-    if (is_small_step(light)) return Choice::SmallStep;
-    if (mesh.faces().size() < few_faces) return Choice::FewFaces;
-    if (searched_part_ > large_part && since_search_ < patience) return Choice::LargeSilhouette;
-    return Choice::Jump;
+    if (!mesh.is_deformed() && is_small_step(light)) return Choice::SmallStep;
+    const Choice choice = choose_for_jump(mesh);
+    const bool large = searched_part_ > large_part && since_search_ < patience;
+    return choice == Choice::Jump && large ? Choice::LargeSilhouette : choice;
 }
 
 const Detection& Automatic::detect(const ShadowMesh& mesh, LightLocal light, NearCaps near_caps) {
@@ -92,6 +91,11 @@ const Detection& Automatic::detect(const ShadowMesh& mesh, LightLocal light, Nea
 }
 
 }  // namespace
+
+Choice choose_for_jump(const ShadowMesh& mesh) {
+    if (mesh.is_deformed()) return Choice::Deforming;
+    return mesh.faces().size() < few_faces ? Choice::FewFaces : Choice::Jump;
+}
 
 std::unique_ptr<SilhouetteDetector> automatic_detector() { return std::make_unique<Automatic>(); }
 
