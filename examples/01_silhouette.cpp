@@ -61,9 +61,8 @@ int main() {
     Volume volume;
     build_volume(**mesh, facing.weights, silhouette, lamp.is_directional(), FarVertices::AtInfinity,
                  volume);
-    const bool closed = is_closed(volume, lamp.is_directional());
+    const bool closed = is_closed(**mesh, volume);
     std::printf("volume: %u triangles of sides, %u of caps, %s\n", volume.sides.count / 3,
-                (volume.near_cap.count + volume.near_cap_flipped.count + volume.far_cap.count) / 3,
-                closed ? "closed" : "not closed");
+                volume.cap_faces() + volume.far_cap.count / 3, closed ? "closed" : "not closed");
     return closed ? 0 : 1;
 }

@@ -130,6 +130,7 @@ Status Renderer::State::create() {
                                                   .color_formats = {internal::radiance_format},
                                                   .extrusion = desc.extrusion,
                                                   .silhouette_lines = desc.overlays.silhouettes,
+                                                  .cap_parts = desc.overlays.caps,
                                                   .averted_faces = desc.averted_faces});
     if (!pass) return forward_error(pass);
     shadows = std::move(*pass);

@@ -21,6 +21,7 @@ Result<IndexRun> IndexArena::upload(std::span<const std::uint32_t> indices) {
     }
     const auto count = static_cast<std::uint32_t>(indices.size());
     IndexRun run;
+    if (count == 0) return run;
     if (!find_room(count, run)) {
         if (const Status added = add_chunk(count); !added) return forward_error(added);
         find_room(count, run);
@@ -35,6 +36,7 @@ Result<IndexRun> IndexArena::upload(std::span<const std::uint32_t> indices) {
 }
 
 void IndexArena::free(const IndexRun& run) {
+    if (run.count == 0) return;
     auto& runs = chunks_[run.chunk].free_runs;
     in_use_ -= run.count;
     std::uint32_t first = run.first;

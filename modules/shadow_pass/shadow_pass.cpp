@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/shadow_pass/shadow_pass.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
@@ -11,10 +12,15 @@
 #include <gnomon_shaders/shadow_pass.hpp>
 
 #include "internal/index_arena.hpp"
+#include "internal/mesh_caps.hpp"
 #include "internal/stencil_fold.hpp"
+#include "internal/volume_draws.hpp"
 
 namespace gnomon::shadow_pass {
 
+using internal::Role;
+using internal::role_count;
+using internal::Run;
 using shadows::Technique;
 
 namespace {
@@ -26,14 +32,6 @@ struct VolumeUniforms {
     glm::vec4 far_offset;
     glm::vec4 far_scale;
 };
-
-// What a run of indices is, as far as the depth test is concerned.
-enum class Role : std::uint8_t {
-    Volume,   // sides and far caps; near caps too where they are not biased
-    Cap,      // near caps, moved away from the eye: behind the surface that they lie on
-    OpenCap,  // of averted faces left to shading: in front of it
-};
-constexpr std::size_t role_count = 3;
 
 bool is_reversed(gpu::Compare compare) {
     return compare == gpu::Compare::Greater || compare == gpu::Compare::GreaterEqual;
@@ -78,45 +76,6 @@ gpu::DepthStencilState counting(const ShadowPassDesc& desc, Technique technique,
 std::size_t pipeline_index(Technique technique, bool exchanged, bool unclipped, Role role) {
     return (technique == Technique::DepthFail ? 1U : 0U) + (exchanged ? 2U : 0U) +
            (unclipped ? 4U : 0U) + 8U * static_cast<std::size_t>(role);
-}
-
-// A run of indices that one draw call takes.
-struct Run {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-    bool flipped = false;
-    Role role = Role::Volume;
-};
-
-std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& desc) {
-    const shadows::Volume& v = *draw.volume;
-    const bool caps = draw.technique == Technique::DepthFail || draw.near_caps;
-    const Role cap = desc.cap_bias.none() ? Role::Volume : Role::Cap;
-    std::vector<Run> runs;
-    const auto add = [&](std::uint32_t first, std::uint32_t count, bool flipped, Role role) {
-        if (count == 0) return;
-        // Ranges that follow each other and are drawn alike take one call.
-        if (!runs.empty() && runs.back().first + runs.back().count == first &&
-            runs.back().flipped == flipped && runs.back().role == role) {
-            runs.back().count += count;
-        } else {
-            runs.push_back({first, count, flipped, role});
-        }
-    };
-    add(v.sides.first, v.sides.count, false, Role::Volume);
-    if (caps) add(v.near_cap.first, v.near_cap.count, false, cap);
-    // A far cap at infinity is never in front of anything; a finite one closes the volume for
-    // depth-pass as well.
-    if (draw.technique == Technique::DepthFail || draw.extrusion.offset.w != 0.0F) {
-        add(v.far_cap.first, v.far_cap.count, false, Role::Volume);
-    }
-    const bool open = desc.averted_faces == AvertedFaces::LeftToShading;
-    const std::uint32_t open_count = open ? v.near_cap_averted.count : 0;
-    if (caps) {
-        add(v.near_cap_flipped.first, v.near_cap_flipped.count - open_count, true, cap);
-    }
-    add(v.near_cap_averted.first, open_count, true, Role::OpenCap);
-    return runs;
 }
 
 bool is_same_view(const shadows::View& a, const shadows::View& b) {
@@ -169,6 +128,7 @@ struct ShadowPass::State {
     std::vector<gpu::Buffer> extruded;                       // by draw, on the CPU path
     std::vector<std::uint64_t> extruded_sizes;
     internal::IndexArena indices;
+    internal::MeshCaps mesh_caps;
     std::uint64_t generation = 0;
     // What was prepared last; 0 for a list of no system, or after a failure.
     std::uint64_t prepared_revision = 0;
@@ -177,6 +137,7 @@ struct ShadowPass::State {
     struct Recorded {
         gpu::BufferId vertices;
         internal::IndexRun run;
+        internal::IndexRun mesh_caps;  // where a run is of them
         bool exchanged = false;
         bool unclipped = false;
         Technique technique = Technique::DepthFail;
@@ -200,6 +161,9 @@ struct ShadowPass::State {
     Result<gpu::BufferId> extruded_vertices_of(std::size_t index, const shadows::VolumeDraw& draw);
     Result<internal::IndexRun> indices_of(const shadows::VolumeDraw& draw);
     void free_unused();
+    // `bound`: the chunk of indices that is, if any.
+    void draw(gpu::RenderPassEncoder& encoder, const Recorded& volume, const Run& run,
+              std::optional<std::uint32_t>& bound) const;
 };
 
 gpu::VertexBufferLayout ShadowPass::State::vertex_layout() const {
@@ -391,9 +355,10 @@ void ShadowPass::State::free_unused() {
         if (unused) indices.free(entry.second.run);
         return unused;
     });
-    // A mesh may be out of range for a while and come back; its vertices are kept for a few seconds
-    // of frames.
+    // A mesh may be out of range for a while and come back; what is the same for all its volumes is
+    // kept for a few seconds of frames.
     constexpr std::uint64_t patience = 300;
+    mesh_caps.free_unused(indices, generation, patience);
     std::erase_if(meshes,
                   [&](const auto& entry) { return entry.second.used + patience < generation; });
 }
@@ -466,8 +431,18 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         if (!vertices) return forward_error(vertices);
         auto run = s.indices_of(draw);
         if (!run) return forward_error(run);
-        s.recorded.push_back({*vertices, *run, draw.mirrored, unclipped, draw.technique,
-                              runs_of(draw, s.desc), draw.batch, draw.volume});
+        auto runs = internal::runs_of(draw, s.desc);
+        internal::IndexRun mesh_caps;
+        const bool needs_mesh_caps =
+            (s.desc.cap_parts && !draw.volume->ranges.empty()) ||
+            std::any_of(runs.begin(), runs.end(), [](const Run& r) { return r.of_mesh; });
+        if (needs_mesh_caps) {
+            auto got = s.mesh_caps.get(s.indices, *draw.mesh, s.generation, s.stats.uploaded_bytes);
+            if (!got) return forward_error(got);
+            mesh_caps = *got;
+        }
+        s.recorded.push_back({*vertices, *run, mesh_caps, draw.mirrored, unclipped, draw.technique,
+                              std::move(runs), draw.batch, draw.volume});
         s.stats.draw_calls += s.recorded.back().runs.size();
     }
     if (const Status written = s.write_uniforms(list, view); !written) return written;
@@ -477,6 +452,16 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
     return {};
 }
 
+void ShadowPass::State::draw(gpu::RenderPassEncoder& encoder, const Recorded& volume,
+                             const Run& run, std::optional<std::uint32_t>& bound) const {
+    const internal::IndexRun& where = run.of_mesh ? volume.mesh_caps : volume.run;
+    if (bound != where.chunk) {
+        encoder.set_index_buffer(indices.buffer(where.chunk), gpu::IndexFormat::Uint32);
+        bound = where.chunk;
+    }
+    encoder.draw_indexed(run.count, 1, where.first + run.first, run.base_vertex);
+}
+
 void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) const {
     const State& s = *state_;
     const shadows::LightDraws& of_light = s.lights[light];
@@ -484,6 +469,7 @@ void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) cons
     const bool batched = of_light.batches > 1;
     const State::Pipelines& pipelines = batched ? s.batching->pipelines : s.pipelines;
     const gpu::RenderPipeline* current = nullptr;
+    std::optional<std::uint32_t> indices;
     for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
         const State::Recorded& volume = s.recorded[i];
         if (batched && i > of_light.first && volume.batch != s.recorded[i - 1].batch) {
@@ -493,13 +479,12 @@ void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) cons
         const std::uint32_t offset = i * s.uniform_stride;
         encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
         encoder.set_vertex_buffer(0, volume.vertices);
-        encoder.set_index_buffer(s.indices.buffer(volume.run.chunk), gpu::IndexFormat::Uint32);
         for (const Run& run : volume.runs) {
             const auto& pipeline = pipelines[pipeline_index(
-                volume.technique, volume.exchanged != run.flipped, volume.unclipped, run.role)];
+                volume.technique, volume.exchanged != run.exchanged, volume.unclipped, run.role)];
             if (&pipeline != current) encoder.set_pipeline(pipeline);
             current = &pipeline;
-            encoder.draw_indexed(run.count, 1, volume.run.first + run.first);
+            s.draw(encoder, volume, run, indices);
         }
     }
     if (batched) {
@@ -514,20 +499,21 @@ void ShadowPass::record_part(gpu::RenderPassEncoder& encoder, std::size_t light,
     const State& s = *state_;
     const shadows::LightDraws& of_light = s.lights[light];
     encoder.set_pipeline(pipeline);
+    std::optional<std::uint32_t> indices;
     for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
         const State::Recorded& recorded = s.recorded[i];
         const shadows::Volume& volume = *recorded.volume;
         const std::uint32_t offset = i * s.uniform_stride;
         encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
         encoder.set_vertex_buffer(0, recorded.vertices);
-        encoder.set_index_buffer(s.indices.buffer(recorded.run.chunk), gpu::IndexFormat::Uint32);
         const auto draw = [&](std::uint32_t first, std::uint32_t count) {
-            if (count > 0) encoder.draw_indexed(count, 1, recorded.run.first + first);
+            if (count > 0) s.draw(encoder, recorded, {.first = first, .count = count}, indices);
         };
         if (part == Part::Sides) draw(volume.sides.first, volume.sides.count);
         if (part == Part::Caps) {
-            draw(volume.near_cap.first, volume.near_cap.count);
-            draw(volume.near_cap_flipped.first, volume.near_cap_flipped.count);
+            for (const Run& run : internal::near_caps_of(volume)) {
+                s.draw(encoder, recorded, run, indices);
+            }
         }
         if (part == Part::Silhouettes) {
             const auto lines = static_cast<std::uint32_t>(volume.indices.size());

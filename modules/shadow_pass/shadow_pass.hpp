@@ -76,7 +76,8 @@ struct ShadowPassDesc {
         {};  ///< of the render pass that volumes are drawn in; none is written
     ExtrusionPath extrusion = ExtrusionPath::VertexShader;
     bool silhouette_lines =
-        false;  ///< also uploads silhouette edges as lines, for Part::Silhouettes
+        false;               ///< also uploads silhouette edges as lines, for Part::Silhouettes
+    bool cap_parts = false;  ///< also keeps caps that no light draws at hand, for Part::Caps
     AvertedFaces averted_faces = AvertedFaces::Shadowed;
     CapBias cap_bias = {};  ///< both values >= 0; none where depth comes from the shared function
 };

@@ -102,11 +102,9 @@ void Batching::make_pieces(std::uint32_t limit) {
         }
         std::vector<VolumePart>& parts = pair.more().parts;
         if (parts.empty()) {
-            const FarVertices far_vertices =
-                pair.is(PairFlag::FiniteFar) ? FarVertices::Finite : FarVertices::AtInfinity;
             for (LayerPart& part :
                  split_volume(*drawn.caster->mesh, *drawn.volume,
-                              space_of(pair, *drawn.caster, light_), far_vertices, limit)) {
+                              space_of(pair, *drawn.caster, light_), limit)) {
                 parts.push_back({std::make_shared<const Volume>(std::move(part.volume)),
                                  next_volume_revision(), part.layers});
             }

@@ -236,7 +236,7 @@ void ShadowSystem::State::update_one(PairWork& item, Scratch& scratch, FrameStat
         pair.reason = Reason::OutOfRange;
         return;
     }
-    const internal::FrameTerms terms{far_vertices, strategy, frame};
+    const internal::FrameTerms terms{far_vertices, strategy, frame, options.caps};
     internal::update_pair(pair, caster, light, terms, volume, scratch, item, stats);
 }
 
@@ -276,7 +276,7 @@ bool ShadowSystem::State::place_results() {
 
 void ShadowSystem::State::place_volume(LightState& light, PairState& pair, PairWork& item) {
     const std::uint64_t revision = internal::next_volume_revision();
-    const bool empty = item.made->indices.empty();  // nothing faces anything: no shadow
+    const bool empty = item.made->empty();  // nothing faces anything: no shadow
     if (pair.draw != internal::no_draw) {
         VolumeDraw& draw = list.draws[light.first + pair.draw];
         if (empty) {

@@ -151,41 +151,40 @@ struct CornerLayers {
 
 // Casting faces that the two rays meet, or pass within 1e-5 rad: the pictures begin near the
 // corners, not on them.
-CornerLayers layers_at_corners(const Placement& placement, const internal::Caps& casting) {
+CornerLayers layers_at_corners(const Placement& placement, const internal::CastingFaces& casting) {
     constexpr double tolerance = 1e-5;
     constexpr double rounding = 1e-12;
     CornerLayers layers;
-    for (const auto& cap : casting) {
-        for (std::size_t f = 0; f + 2 < cap.size(); f += 3) {
-            std::array<glm::dvec3, 3> d;
-            std::array<double, 3> length2{};
-            for (std::size_t i = 0; i < 3; ++i) {
-                d[i] = placement(cap[f + i] / 2);
-                length2[i] = glm::dot(d[i], d[i]);
-            }
-            // On which sides of the planes through the light and an edge (1, 1, 1) lies.
-            bool left = true;
-            bool right = true;
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::size_t k = (i + 1) % 3;
-                const glm::dvec3 n = glm::cross(d[i], d[k]);
-                const double height = n.x + n.y + n.z;
-                const bool clear =
-                    height * height > 6.0 * (tolerance * tolerance * glm::dot(n, n) +
-                                             rounding * rounding * length2[i] * length2[k]);
-                left = left && (height >= 0.0 || !clear);
-                right = right && (height <= 0.0 || !clear);
-            }
-            if (!left && !right) continue;
-            // The face, or its mirror image behind the light.
-            const double side = glm::dot(d[0], glm::cross(d[1], d[2]));
-            const double doubt = rounding * std::sqrt(length2[0] * length2[1] * length2[2]);
-            const bool forwards = side >= -doubt;
-            const bool backwards = side <= doubt;
-            layers.high += (left && forwards) || (right && backwards) ? 1 : 0;
-            layers.low += (right && forwards) || (left && backwards) ? 1 : 0;
+    const auto add = [&](const std::array<std::uint32_t, 3>& face) {
+        std::array<glm::dvec3, 3> d;
+        std::array<double, 3> length2{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            d[i] = placement(face[i]);
+            length2[i] = glm::dot(d[i], d[i]);
         }
-    }
+        // On which sides of the planes through the light and an edge (1, 1, 1) lies.
+        bool left = true;
+        bool right = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t k = (i + 1) % 3;
+            const glm::dvec3 n = glm::cross(d[i], d[k]);
+            const double height = n.x + n.y + n.z;
+            const bool clear =
+                height * height > 6.0 * (tolerance * tolerance * glm::dot(n, n) +
+                                         rounding * rounding * length2[i] * length2[k]);
+            left = left && (height >= 0.0 || !clear);
+            right = right && (height <= 0.0 || !clear);
+        }
+        if (!left && !right) return;
+        // The face, or its mirror image behind the light.
+        const double side = glm::dot(d[0], glm::cross(d[1], d[2]));
+        const double doubt = rounding * std::sqrt(length2[0] * length2[1] * length2[2]);
+        const bool forwards = side >= -doubt;
+        const bool backwards = side <= doubt;
+        layers.high += (left && forwards) || (right && backwards) ? 1 : 0;
+        layers.low += (right && forwards) || (left && backwards) ? 1 : 0;
+    };
+    for_each_face(placement.mesh, casting.triples, casting.ranges, add);
     return layers;
 }
 
@@ -210,7 +209,7 @@ bool clip(glm::dvec3& a, glm::dvec3& b, double limit) {
 }
 
 std::optional<std::int64_t> bound_all_round(const Placement& placement,
-                                            const internal::Caps& casting,
+                                            const internal::CastingFaces& casting,
                                             std::span<const SilhouetteEdge> boundary) {
     // The pictures overlap a little, and edges reach a little beyond them.
     constexpr double side = 1.0 + 1e-6;
@@ -260,13 +259,12 @@ std::uint32_t quick_bound(std::uint64_t faces, std::uint64_t sides, bool from_ou
     return static_cast<std::uint32_t>(faces);
 }
 
-std::uint32_t bound_layers(const ShadowMesh& mesh, const Caps& casting,
+std::uint32_t bound_layers(const ShadowMesh& mesh, const CastingFaces& casting,
                            std::span<const SilhouetteEdge> boundary, const LayerSpace& space) {
     const Placement placement(mesh, space);
     std::uint64_t sides = 0;
     for (const SilhouetteEdge& edge : boundary) sides += static_cast<std::uint64_t>(edge.count);
-    const std::uint32_t quick = quick_bound((casting[0].size() + casting[1].size()) / 3, sides,
-                                            seen_from_outside(mesh, space));
+    const std::uint32_t quick = quick_bound(casting.count(), sides, seen_from_outside(mesh, space));
     if (quick <= 1) return quick;
 
     std::optional<std::int64_t> found;
@@ -307,17 +305,12 @@ bool seen_from_outside(const ShadowMesh& mesh, const LayerSpace& space) {
 
 std::uint32_t quick_layer_bound(const Volume& volume, bool from_outside) {
     // A side is two triangles, or one where all far vertices are one point.
-    const bool one_far_point =
-        volume.far_cap.count == 0 && volume.near_cap.count + volume.near_cap_flipped.count > 0;
-    return internal::quick_bound((volume.near_cap.count + volume.near_cap_flipped.count) / 3,
-                                 volume.sides.count / (one_far_point ? 3 : 6), from_outside);
+    return internal::quick_bound(volume.cap_faces(),
+                                 volume.sides.count / (volume.made_with.one_far_point() ? 3 : 6),
+                                 from_outside);
 }
 
 std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume, const LayerSpace& space) {
-    const std::span<const std::uint32_t> indices(volume.indices);
-    const auto cap = [&](const IndexRange& range) {
-        return indices.subspan(range.first, range.count);
-    };
     // Each side starts with the two near vertices of its edge, the later one first.
     std::vector<SilhouetteEdge> boundary;
     const IndexRange& sides = volume.sides;
@@ -333,8 +326,9 @@ std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume, const La
             boundary.push_back(edge);
         }
     }
-    return internal::bound_layers(mesh, {cap(volume.near_cap), cap(volume.near_cap_flipped)},
-                                  boundary, space);
+    // The triples of all near caps follow each other, and nothing follows them.
+    const auto triples = std::span(volume.indices).subspan(volume.near_cap.triples.first);
+    return internal::bound_layers(mesh, {triples, volume.ranges}, boundary, space);
 }
 
 }  // namespace gnomon::shadows

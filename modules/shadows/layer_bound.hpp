@@ -54,9 +54,8 @@ struct LayerPart {
 /// one part, so the parts' counts add up to the volume's, at any point. Cut first between patches,
 /// the pieces that the silhouette divides the casting faces into: those cuts run along shadow edges
 /// that are there anyway. A patch that overlaps itself too often is cut by distance from the light.
-/// Parts are built for `far_vertices` as `volume` was. Cost: linear in the mesh for each part.
+/// Parts are built with the options that `volume` was. Cost: linear in the mesh for each part.
 [[nodiscard]] std::vector<LayerPart> split_volume(const ShadowMesh& mesh, const Volume& volume,
-                                                  const LayerSpace& space, FarVertices far_vertices,
-                                                  std::uint32_t limit);
+                                                  const LayerSpace& space, std::uint32_t limit);
 
 }  // namespace gnomon::shadows

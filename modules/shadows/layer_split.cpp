@@ -22,28 +22,33 @@ struct Source {
     std::vector<std::uint8_t> solid_averted;  // by component
 };
 
-// Each cap range lists faces in the mesh's order, so one walk along both finds them; where
-// neighbouring faces are equal any of them may have the weight.
+// Triples are in the mesh's order, so one walk along both finds their faces; where neighbouring
+// faces are equal any of them may have the weight.
 Source source_of(const ShadowMesh& mesh, const Volume& volume) {
     const auto faces = mesh.faces();
     Source source{std::vector<std::int8_t>(faces.size(), 0),
                   std::vector<std::uint8_t>(mesh.components().size(), 0)};
-    const auto walk = [&](const IndexRange& range, int step, const auto& visit) {
+    const auto add = [&](const CapList& list, int weight, const auto& visit) {
         std::size_t f = 0;
-        for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
-            const std::array cap{volume.indices[i] / 2, volume.indices[i + 1] / 2,
-                                 volume.indices[i + 2] / 2};
+        for (std::uint32_t i = 0; i < list.triples.count; i += 3) {
+            const std::uint32_t* triple = &volume.indices[list.triples.first + i];
+            const std::array cap{triple[0] / 2, triple[1] / 2, triple[2] / 2};
             while (faces[f] != cap) ++f;
-            source.weights[f] = static_cast<std::int8_t>(source.weights[f] + step);
+            source.weights[f] = static_cast<std::int8_t>(source.weights[f] + weight);
             visit(f);
         }
+        for (std::uint32_t i = 0; i < list.ranges.count; ++i) {
+            const FaceRange& range = volume.ranges[list.ranges.first + i];
+            for (f = range.first; f < range.first + range.count; ++f) {
+                source.weights[f] = static_cast<std::int8_t>(source.weights[f] + weight);
+                visit(f);
+            }
+        }
     };
-    const IndexRange& averted = volume.near_cap_averted;  // the last part of the flipped ones
-    const IndexRange open{volume.near_cap_flipped.first,
-                          volume.near_cap_flipped.count - averted.count};
-    walk(volume.near_cap, 1, [](std::size_t) {});
-    walk(open, -1, [](std::size_t) {});
-    walk(averted, -1, [&](std::size_t f) { source.solid_averted[mesh.face_components()[f]] = 1; });
+    add(volume.near_cap, 1, [](std::size_t) {});
+    add(volume.near_cap_flipped, -1, [](std::size_t) {});
+    add(volume.near_cap_averted, -1,
+        [&](std::size_t f) { source.solid_averted[mesh.face_components()[f]] = 1; });
     return source;
 }
 
@@ -57,10 +62,10 @@ struct CastingFace {
 class Splitter {
 public:
     Splitter(const ShadowMesh& mesh, const Volume& volume, const LayerSpace& space,
-             FarVertices far_vertices, std::uint32_t limit)
+             std::uint32_t limit)
         : mesh_(mesh),
           space_(space),
-          far_vertices_(far_vertices),
+          options_(volume.made_with),
           limit_(limit),
           source_(source_of(mesh, volume)),
           weights_(source_.weights),
@@ -79,11 +84,12 @@ private:
 
     const ShadowMesh& mesh_;
     const LayerSpace& space_;
-    FarVertices far_vertices_;
+    VolumeOptions options_;
     std::uint32_t limit_;
     Source source_;
     std::span<const std::int8_t> weights_;
     std::vector<std::int8_t> part_weights_;
+    std::vector<FaceRun> part_runs_;
     std::vector<CastingFace> faces_;
     std::vector<SilhouetteEdge> boundary_;
     std::vector<std::uint32_t> caps_;
@@ -136,12 +142,12 @@ void Splitter::split(std::size_t begin, std::size_t end) {
         for (const std::uint32_t v : mesh_.faces()[faces_[i].face]) caps_.push_back(2 * v);
     }
     const std::uint32_t layers =
-        internal::bound_layers(mesh_, {std::span(caps_), {}}, boundary_, space_);
+        internal::bound_layers(mesh_, {.triples = caps_}, boundary_, space_);
     if (layers <= limit_) {
         LayerPart& part = parts_.emplace_back();
         part.layers = layers;
-        build_volume(mesh_, part_weights_, boundary_, space_.light.w == 0.0, far_vertices_,
-                     part.volume, source_.solid_averted);
+        runs_of(part_weights_, part_runs_);
+        build_volume(mesh_, part_runs_, boundary_, options_, part.volume, source_.solid_averted);
     }
     for (std::size_t i = begin; i < end; ++i) part_weights_[faces_[i].face] = 0;
     if (layers <= limit_) return;
@@ -165,10 +171,9 @@ void Splitter::split(std::size_t begin, std::size_t end) {
 }  // namespace
 
 std::vector<LayerPart> split_volume(const ShadowMesh& mesh, const Volume& volume,
-                                    const LayerSpace& space, FarVertices far_vertices,
-                                    std::uint32_t limit) {
+                                    const LayerSpace& space, std::uint32_t limit) {
     GNOMON_EXPECTS(limit >= 1);
-    return Splitter(mesh, volume, space, far_vertices, limit).run();
+    return Splitter(mesh, volume, space, limit).run();
 }
 
 }  // namespace gnomon::shadows

@@ -2,6 +2,7 @@
 #include "internal/pair.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -65,6 +66,14 @@ const Detection& detect_flattened(const CasterState& caster, const LightState& l
     return found;
 }
 
+// How far a point light outside of the mesh's bounds may go for certain without entering them.
+double distance_to_bounds(const ShadowMesh& mesh, LightLocal light) {
+    const glm::dvec3 l(light.position);
+    const glm::dvec3 within =
+        glm::clamp(l, glm::dvec3(mesh.bounds_min()), glm::dvec3(mesh.bounds_max()));
+    return glm::length(l - within) * (1.0 - 1e-9);
+}
+
 SilhouetteDetector& detector_of(PairState& pair, const SilhouetteStrategy& strategy,
                                 std::uint64_t frame, Scratch& scratch) {
     if (strategy.keeps_state) {
@@ -98,15 +107,22 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
 
     // A detector of the pair's own, which found what it had found for the volume that there is.
     const bool by_its_own = detector != nullptr && chosen.strategy->keeps_state;
-    const bool same = same_kind && by_its_own && pair.extra->detector_is_current && !found.changed;
+    VolumeOptions options{light.light.position_world.w == 0.0, terms.far_vertices, terms.caps};
+    double margin = found.margin;
+    if (options.caps.far_cap == FarCap::Fan) {
+        if (detector == nullptr || !fan_is_exact(mesh, current, terms.far_vertices)) {
+            options.caps.far_cap = FarCap::Faces;
+        } else {
+            margin = std::min(margin, distance_to_bounds(mesh, current));
+        }
+    }
+    const bool same = same_kind && by_its_own && pair.extra->detector_is_current &&
+                      !found.changed && options.caps.far_cap == terms.caps.far_cap;
     if (pair.extra != nullptr) pair.extra->detector_is_current = by_its_own;
     if (!same) {
         auto volume = std::make_shared<Volume>();
-        scratch.weights.resize(mesh.faces().size());
         runs_of(found.casting, scratch.runs);
-        weights_of(scratch.runs, scratch.weights);
-        build_volume(mesh, scratch.weights, found.silhouette, light.light.position_world.w == 0.0,
-                     terms.far_vertices, *volume, found.solid_averted);
+        build_volume(mesh, scratch.runs, found.silhouette, options, *volume, found.solid_averted);
         work.made = std::move(volume);
     }
     pair.set(PairFlag::Known, true);
@@ -114,7 +130,7 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
     pair.set(PairFlag::AvertedCaps, caster.near_caps == NearCaps::Averted);
     pair.set(PairFlag::Flattened, caster.pose.singular);
     pair.detected = glm::vec3(current.position);
-    pair.margin = not_above(found.margin);
+    pair.margin = not_above(margin);
     if (pair.extra != nullptr) pair.extra->nearest_face = -1.0;
 
     stats.detect_ms += milliseconds(start, detected);
@@ -269,16 +285,14 @@ LayerSpace space_of(const PairState& pair, const CasterState& caster, const Ligh
 double nearest_face(const Volume& volume, const ShadowMesh& mesh,
                     const glm::dmat4& world_from_local, const glm::dvec3& point_world) {
     double best = std::numeric_limits<double>::infinity();
-    const auto place = [&](std::uint32_t index) {
-        return glm::dvec3(world_from_local *
-                          glm::dvec4(glm::dvec3(mesh.positions()[index / 2]), 1.0));
+    const auto place = [&](std::uint32_t vertex) {
+        return glm::dvec3(world_from_local * glm::dvec4(glm::dvec3(mesh.positions()[vertex]), 1.0));
     };
-    for (const IndexRange& range : {volume.near_cap, volume.near_cap_flipped}) {
-        for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
-            best = std::min(
-                best, squared_distance(point_world, place(volume.indices[i]),
-                                       place(volume.indices[i + 1]), place(volume.indices[i + 2])));
-        }
+    for (const CapList& list : volume.near_caps()) {
+        for_each_cap_face(mesh, volume, list, [&](const std::array<std::uint32_t, 3>& face) {
+            best = std::min(best, squared_distance(point_world, place(face[0]), place(face[1]),
+                                                   place(face[2])));
+        });
     }
     return std::sqrt(best);
 }

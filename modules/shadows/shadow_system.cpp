@@ -199,7 +199,8 @@ SystemMemory ShadowSystem::memory() const {
                      s.bounds_before.capacity() * sizeof(s.bounds_before[0]);
     memory.lights = s.lights.memory_bytes() + s.listed.capacity() * 4;
     const auto size_of = [](const Volume& volume) {
-        return sizeof(Volume) + volume.indices.capacity() * sizeof(std::uint32_t);
+        return sizeof(Volume) + volume.indices.capacity() * sizeof(std::uint32_t) +
+               volume.ranges.capacity() * sizeof(FaceRange);
     };
     for (std::uint32_t l = 0; l < s.lights.end(); ++l) {
         const LightState& light = s.lights[l];

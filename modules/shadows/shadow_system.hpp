@@ -146,6 +146,8 @@ struct SystemOptions {
     /// finish(). That is the default because a library that starts threads unasked competes with
     /// its host's own; thread_jobs() is a runner for hosts without any.
     Jobs jobs = {};
+    /// A fan is used for those pairs for which it is exact; the others have faces.
+    CapOptions caps = {};
 };
 
 /// What a ShadowSystem holds, in bytes: capacities, without what the allocator adds.

@@ -4,14 +4,22 @@
 // the near one, where it is, and 2v + 1, the far one, pushed away from the light, in the vertex
 // shader or by extrude(). So a moving light costs indices alone, and the near vertices are the
 // mesh's own, bit for bit.
+//
+// Caps are faces of the mesh, and most of them come in long runs. Those are not written out: they
+// are ranges of one list that a mesh has for good, the triples of its near vertices in its own
+// order. Far caps are near caps whose indices are all one higher.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include <gnomon/shadows/detector.hpp>
 #include <gnomon/shadows/light.hpp>
 #include <gnomon/shadows/shadow_mesh.hpp>
 #include <gnomon/shadows/silhouette.hpp>
@@ -23,21 +31,11 @@ struct IndexRange {
     std::uint32_t count = 0;
 };
 
-/// Triangles wound counter-clockwise from outside the volume, except near_cap_flipped, which keeps
-/// the mesh's own order (docs/conventions.md, "Caps keep their order") and is drawn with front and
-/// back exchanged. In `indices` the ranges follow each other: sides, near_cap, far_cap,
-/// near_cap_flipped.
-struct Volume {
-    std::vector<std::uint32_t> indices;
-    IndexRange sides;
-    IndexRange near_cap;
-    IndexRange far_cap;  ///< empty for a directional light with the far vertices at infinity: they
-                         ///< all coincide
-    IndexRange near_cap_flipped;
-    /// The last part of near_cap_flipped: the caps of solids that cast with their averted faces
-    /// (NearCaps::Averted). Every other near cap lies on a surface that light may reach.
-    IndexRange near_cap_averted;
-    std::uint32_t silhouette_edges = 0;
+/// Faces [first, first + count) of the mesh, each of which casts once.
+struct FaceRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    auto operator<=>(const FaceRange&) const = default;
 };
 
 /// Where far vertices go. At infinity they are directions (w = 0), which an infinite perspective
@@ -45,20 +43,155 @@ struct Volume {
 /// places.
 enum class FarVertices : std::uint8_t { AtInfinity, Finite };
 
+/// What closes a volume at its far vertices.
+enum class FarCap : std::uint8_t {
+    Faces,  ///< the casting faces: right for any light
+    /// A fan over the silhouette, one triangle an edge. It equals the faces where all directions
+    /// from the light to the caster lie in a half-space, and is wrong by whole layers where the
+    /// light is within the caster's bounds: fan_is_exact().
+    Fan,
+};
+
+/// How caps are put together. The counts are the same whatever is chosen.
+struct CapOptions {
+    FarCap far_cap = FarCap::Faces;
+    /// A draw call is taken to cost as much as the indices of so many faces: runs of at least as
+    /// many are ranges. At most so many that no run is long enough: `plain`.
+    std::uint32_t draw_worth_faces = 512;
+    /// No volume has more ranges: the longest ones are taken.
+    std::uint32_t max_ranges = 64;
+
+    /// All triangles are written out, in `Volume::indices`.
+    [[nodiscard]] static constexpr CapOptions plain() {
+        return {.draw_worth_faces = std::numeric_limits<std::uint32_t>::max(), .max_ranges = 0};
+    }
+};
+
+struct VolumeOptions {
+    bool directional = false;
+    FarVertices far_vertices = FarVertices::AtInfinity;
+    CapOptions caps = {};
+
+    /// All far vertices are one point: a side is one triangle and there is no far cap.
+    [[nodiscard]] bool one_far_point() const {
+        return directional && far_vertices == FarVertices::AtInfinity;
+    }
+};
+
+/// The near caps of the faces of one kind, in the mesh's own order of corners (docs/conventions.md,
+/// "Caps keep their order").
+struct CapList {
+    IndexRange triples;       ///< in Volume::indices, in the mesh's order of faces
+    IndexRange ranges;        ///< in Volume::ranges, ascending
+    std::uint32_t faces = 0;  ///< in both, each as often as it casts
+};
+
+/// Near caps that are drawn once more as far caps, with 1 added to each index and front and back
+/// the other way round.
+enum class FarCopies : std::uint8_t { None, OfRanges, OfAll };
+
+/// Triangles, counter-clockwise from outside the volume where nothing else is said. `indices` has
+/// far_cap, sides and the triples of near_cap, near_cap_flipped and near_cap_averted, one after
+/// the other. for_each_triangle() has all of it put together.
+struct Volume {
+    std::vector<std::uint32_t> indices;
+    std::vector<FaceRange> ranges;  ///< of all near caps, list by list
+    /// The part of the far cap that is written out: a fan, or the far caps of all triples where
+    /// those are few. The rest is in `far_copies`.
+    IndexRange far_cap;
+    FarCopies far_copies = FarCopies::None;
+    IndexRange sides;
+    CapList near_cap;          ///< of positive weight
+    CapList near_cap_flipped;  ///< of negative weight: drawn with front and back exchanged
+    /// As near_cap_flipped, of solids that cast with their averted faces (NearCaps::Averted). Every
+    /// other near cap lies on a surface that light may reach.
+    CapList near_cap_averted;
+    std::uint32_t silhouette_edges = 0;
+    VolumeOptions made_with;
+
+    /// Nothing casts.
+    [[nodiscard]] bool empty() const { return indices.empty() && ranges.empty(); }
+    [[nodiscard]] std::array<CapList, 3> near_caps() const {
+        return {near_cap, near_cap_flipped, near_cap_averted};
+    }
+    [[nodiscard]] bool has_far_cap() const {
+        return far_cap.count > 0 || far_copies != FarCopies::None;
+    }
+    /// Near caps in all, each as often as it casts.
+    [[nodiscard]] std::uint32_t cap_faces() const {
+        return near_cap.faces + near_cap_flipped.faces + near_cap_averted.faces;
+    }
+};
+
 /// Builds the volume of weighted faces. Works for any weights; closed whatever they are. Side quads
 /// are split along the diagonal that starts at the lexicographically smaller position, so that
-/// casters which share an edge agree. `solid_averted` is Facing's, by component; it is what
-/// near_cap_averted is made from, and empty means none. Cost: linear in the faces with weight and
-/// the silhouette.
+/// casters which share an edge agree. `casting` and `solid_averted` are Detection's; the latter is
+/// what near_cap_averted is made from, and empty means none. The caller sees to it that a fan is
+/// exact. Cost: linear in the silhouette, the runs and the faces that are written out; with solids
+/// that cast averted beside components that do not, in the faces of negative weight.
+void build_volume(const ShadowMesh& mesh, std::span<const FaceRun> casting,
+                  std::span<const SilhouetteEdge> silhouette, const VolumeOptions& options,
+                  Volume& out, std::span<const std::uint8_t> solid_averted = {});
+
+/// The plain way (CapOptions::plain), from weights by face: all triangles are in `indices`. Cost:
+/// linear in the faces as well.
 void build_volume(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
                   std::span<const SilhouetteEdge> silhouette, bool directional,
                   FarVertices far_vertices, Volume& out,
                   std::span<const std::uint8_t> solid_averted = {});
 
+/// Whether FarCap::Fan closes the volume as FarCap::Faces does: for a point light outside the
+/// mesh's bounds, far vertices at infinity.
+[[nodiscard]] bool fan_is_exact(const ShadowMesh& mesh, LightLocal light, FarVertices far_vertices);
+
+/// Calls visit(std::array<std::uint32_t, 3>) with the welded vertices of each face, in the mesh's
+/// order of corners: of `triples` of near vertices, then of `ranges`.
+template <class Visit>
+void for_each_face(const ShadowMesh& mesh, std::span<const std::uint32_t> triples,
+                   std::span<const FaceRange> ranges, Visit&& visit) {
+    for (std::size_t i = 0; i + 2 < triples.size(); i += 3) {
+        visit(std::array{triples[i] / 2, triples[i + 1] / 2, triples[i + 2] / 2});
+    }
+    for (const FaceRange& range : ranges) {
+        for (const auto& face : mesh.faces().subspan(range.first, range.count)) visit(face);
+    }
+}
+
+/// The same of one list of a volume's near caps.
+template <class Visit>
+void for_each_cap_face(const ShadowMesh& mesh, const Volume& volume, const CapList& list,
+                       Visit&& visit) {
+    for_each_face(mesh, std::span(volume.indices).subspan(list.triples.first, list.triples.count),
+                  std::span(volume.ranges).subspan(list.ranges.first, list.ranges.count), visit);
+}
+
+/// Calls visit(std::array<std::uint32_t, 3>, bool exchanged) for every triangle of the volume, as
+/// it is drawn: counter-clockwise from outside where it is not `exchanged`, clockwise where it is.
+template <class Visit>
+void for_each_triangle(const ShadowMesh& mesh, const Volume& volume, Visit&& visit) {
+    for (const IndexRange& range : {volume.far_cap, volume.sides}) {
+        for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
+            visit(std::array{volume.indices[i], volume.indices[i + 1], volume.indices[i + 2]},
+                  false);
+        }
+    }
+    bool exchanged = false;  // of the first list alone it is not
+    for (CapList list : volume.near_caps()) {
+        for_each_cap_face(mesh, volume, list, [&](const std::array<std::uint32_t, 3>& face) {
+            visit(std::array{2 * face[0], 2 * face[1], 2 * face[2]}, exchanged);
+        });
+        if (volume.far_copies != FarCopies::OfAll) list.triples.count = 0;
+        if (volume.far_copies == FarCopies::None) list.ranges.count = 0;
+        for_each_cap_face(mesh, volume, list, [&](const std::array<std::uint32_t, 3>& face) {
+            visit(std::array{2 * face[0] + 1, 2 * face[1] + 1, 2 * face[2] + 1}, !exchanged);
+        });
+        exchanged = true;
+    }
+}
+
 /// True when the volume has no boundary, as integers: every directed edge is used as often as its
-/// opposite. For tests, fuzzers and tools. `directional_at_infinity`: all far vertices are one
-/// point.
-[[nodiscard]] bool is_closed(const Volume& volume, bool directional_at_infinity);
+/// opposite. For tests, fuzzers and tools.
+[[nodiscard]] bool is_closed(const ShadowMesh& mesh, const Volume& volume);
 
 /// The far vertex of position p is (p * scale + offset.xyz, offset.w), in the caster's space.
 struct Extrusion {

@@ -35,10 +35,23 @@ void require_closed_volumes(const ShadowMesh& mesh, const Facing& facing, bool d
     for (const FarVertices far_vertices : {FarVertices::AtInfinity, FarVertices::Finite}) {
         Volume volume;
         build_volume(mesh, facing.weights, silhouette, directional, far_vertices, volume);
-        require(is_closed(volume, directional && far_vertices == FarVertices::AtInfinity),
-                "the volume is closed");
+        require(is_closed(mesh, volume), "the volume is closed");
         for (const std::uint32_t index : volume.indices) {
             require(index < 2 * mesh.positions().size(), "indices name vertices of the volume");
+        }
+        // The same with ranges, a fan where nobody asks whether it counts right, and a limit.
+        std::vector<FaceRun> casting;
+        runs_of(facing.weights, casting);
+        for (const FarCap far_cap : {FarCap::Faces, FarCap::Fan}) {
+            for (const std::uint32_t few : {0U, 2U, 5U}) {
+                const std::uint32_t faces = volume.cap_faces();
+                build_volume(mesh, casting, silhouette,
+                             {directional, far_vertices, {far_cap, few, few}}, volume,
+                             facing.solid_averted);
+                require(is_closed(mesh, volume), "the volume with ranges is closed");
+                require(volume.ranges.size() <= few, "there are not too many ranges");
+                require(volume.cap_faces() == faces, "caps are the casting faces");
+            }
         }
     }
 }

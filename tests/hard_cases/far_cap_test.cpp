@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Row 14: what a far cap of fans would give. It is closed as well, of fewer triangles. But a rim
-// bounds two parts of the sphere of directions, and a fan takes the smaller one: from within a box
-// without a lid that is the opening, where it should be the walls.
+// Row 14: a far cap that is a fan. It is closed as well, of fewer triangles. But a rim bounds two
+// parts of the sphere of directions, and a fan takes the smaller one: from within a box without a
+// lid that is the opening, where it should be the walls. So there it is refused, and what would
+// come of it is shown.
 #include <gtest/gtest.h>
 
 #include <gnomon/scene/primitives.hpp>
@@ -16,29 +17,24 @@
 namespace gnomon::test {
 namespace {
 
-// Every side quad's far edge joined to the first one's corner.
+// As the shadow system would if it did not ask whether a fan is exact.
 void cap_with_a_fan(shadows::DrawList& list) {
     std::uint64_t revision = std::uint64_t{1} << 40U;  // of the test's own
     for (shadows::VolumeDraw& draw : list.draws) {
-        const shadows::Volume& whole = *draw.volume;
+        shadows::Facing facing;
+        // The far vertex of p is p - L: so the extrusion says where the light is.
+        const shadows::LightLocal light{
+            glm::vec4(-glm::vec3(draw.extrusion.offset), draw.extrusion.scale)};
+        shadows::classify_faces(*draw.mesh, light, facing);
+        std::vector<shadows::SilhouetteEdge> silhouette;
+        shadows::find_silhouette(*draw.mesh, facing.weights, silhouette);
+        std::vector<shadows::FaceRun> casting;
+        shadows::runs_of(facing.weights, casting);
         shadows::Volume fan;
-        fan.indices.assign(whole.indices.begin(), whole.indices.begin() + whole.far_cap.first);
-        fan.sides = whole.sides;
-        fan.near_cap = whole.near_cap;
-        // A quad's first triangle begins with its near vertices, which run against the far cap.
-        const std::uint32_t hub = whole.indices[whole.sides.first + 1] + 1;
-        for (std::uint32_t i = 0; i < whole.sides.count; i += 6) {
-            const std::uint32_t* quad = &whole.indices[whole.sides.first + i];
-            fan.indices.insert(fan.indices.end(), {hub, quad[0] + 1, quad[1] + 1});
-        }
-        fan.far_cap = {whole.far_cap.first,
-                       static_cast<std::uint32_t>(fan.indices.size()) - whole.far_cap.first};
-        const auto flipped = whole.indices.begin() + whole.near_cap_flipped.first;
-        fan.near_cap_flipped = {static_cast<std::uint32_t>(fan.indices.size()),
-                                whole.near_cap_flipped.count};
-        fan.indices.insert(fan.indices.end(), flipped, flipped + whole.near_cap_flipped.count);
-        fan.silhouette_edges = whole.silhouette_edges;
-        EXPECT_TRUE(shadows::is_closed(fan, false));
+        shadows::build_volume(*draw.mesh, casting, silhouette,
+                              {.caps = {.far_cap = shadows::FarCap::Fan}}, fan);
+        EXPECT_TRUE(shadows::is_closed(*draw.mesh, fan));
+        EXPECT_EQ(fan.silhouette_edges, draw.volume->silhouette_edges);
         draw.volume = std::make_shared<const shadows::Volume>(std::move(fan));
         draw.revision = revision++;
     }
@@ -46,7 +42,9 @@ void cap_with_a_fan(shadows::DrawList& list) {
 
 struct Wrong {
     std::uint64_t with_faces = 0;
-    std::uint64_t with_fans = 0;
+    std::uint64_t with_fans = 0;    // whatever the light
+    std::uint64_t where_exact = 0;  // fans where they are, as the shadow system does
+    std::size_t fans = 0;           // of the latter
 };
 
 class FarCap : public DeviceTest {
@@ -59,12 +57,22 @@ protected:
         s.look({0.5, 4.0, 6.5}, {0.0, 0.9, 0.0});
         const Setting setting = s.finish();
         const Traced traced = trace_lights(setting);
-        const auto wrong = [&](PictureOptions options) {
+        Wrong wrong;
+        const auto wrong_with = [&](PictureOptions options) {
             options.technique = shadows::Technique::DepthFail;
-            return judge_lights(traced, must(take_picture(device(), setting, options)).masks)
-                .wrong();
+            const Picture picture = must(take_picture(device(), setting, options));
+            wrong.fans = 0;
+            for (const shadows::VolumeDraw& draw : picture.list.draws) {
+                const shadows::FarCap used = draw.volume->made_with.caps.far_cap;
+                wrong.fans += used == shadows::FarCap::Fan ? 1 : 0;
+            }
+            return judge_lights(traced, picture.masks).wrong();
         };
-        return {wrong({}), wrong({.mutate = cap_with_a_fan})};
+        wrong.with_faces = wrong_with({});
+        wrong.with_fans = wrong_with({.mutate = cap_with_a_fan});
+        EXPECT_EQ(wrong.fans, 1U);
+        wrong.where_exact = wrong_with({.caps = {.far_cap = shadows::FarCap::Fan}});
+        return wrong;
     }
 };
 
@@ -72,12 +80,16 @@ TEST_P(FarCap, a_fan_is_right_where_the_light_is_far_outside) {
     const Wrong wrong = wrong_pixels({3.0, 8.0, 4.0});
     EXPECT_EQ(wrong.with_faces, 0U);
     EXPECT_EQ(wrong.with_fans, 0U);
+    EXPECT_EQ(wrong.where_exact, 0U);
+    EXPECT_EQ(wrong.fans, 1U);
 }
 
-TEST_P(FarCap, a_fan_is_wrong_where_the_light_is_within) {
+TEST_P(FarCap, a_fan_is_wrong_where_the_light_is_within_and_refused) {
     const Wrong wrong = wrong_pixels({0.0, 1.5, 0.25});
     EXPECT_EQ(wrong.with_faces, 0U);
     EXPECT_GT(wrong.with_fans, 1000U);
+    EXPECT_EQ(wrong.where_exact, 0U);
+    EXPECT_EQ(wrong.fans, 0U) << "the far cap is made of faces";
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, FarCap, testing::ValuesIn(drawing_devices()), device_case_name);

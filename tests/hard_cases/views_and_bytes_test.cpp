@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Hard cases whose claim is about bytes: depth-pass, depth-fail and the mixture of both that is
-// chosen by itself give the same masks from any camera, and a whole scene that is moved gives the
-// same masks wherever its sums are exact.
+// chosen by itself give the same masks from any camera, caps in ranges give those of caps written
+// out, and a whole scene that is moved gives the same masks wherever its sums are exact.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -96,6 +96,29 @@ TEST_P(HardCasesByBytes, a_scene_moved_by_exact_sums_keeps_every_byte) {
         EXPECT_EQ(differing(there, here), 0U) << "moved by 2^" << power << " m";
         EXPECT_EQ(differing_bytes(there.depth, here.depth), 0U) << "moved by 2^" << power << " m";
     }
+}
+
+// Of every hard case's first frame: ranges of faces, and far caps that are near caps drawn again,
+// against triangles that are all written out.
+TEST_P(HardCasesByBytes, caps_in_ranges_give_the_bytes_of_caps_written_out) {
+    std::size_t ranges = 0;
+    for (const HardCase& hard_case : hard_cases()) {
+        const auto taken = [&](const shadows::CapOptions& caps) {
+            PictureOptions options = hard_case.options;
+            options.width = 160;
+            options.height = 120;
+            options.caps = caps;
+            return take_picture(device(), hard_case.make(0), options);
+        };
+        const auto plain = taken(shadows::CapOptions::plain());
+        if (!plain) continue;  // no such format here
+        const Picture in_ranges = must(taken({.draw_worth_faces = 2, .max_ranges = 16}));
+        EXPECT_EQ(differing(in_ranges, *plain), 0U) << hard_case.name;
+        for (const shadows::VolumeDraw& draw : in_ranges.list.draws) {
+            ranges += draw.volume->ranges.size();
+        }
+    }
+    EXPECT_GT(ranges, 100U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, HardCasesByBytes, testing::ValuesIn(drawing_devices()),

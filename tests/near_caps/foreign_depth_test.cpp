@@ -26,8 +26,7 @@ using shadows::Technique;
 // No volume of the list has a cap on a face that light may reach.
 bool all_caps_are_averted(const shadows::DrawList& list) {
     return std::all_of(list.draws.begin(), list.draws.end(), [](const shadows::VolumeDraw& draw) {
-        return draw.volume->near_cap.count == 0 &&
-               draw.volume->near_cap_flipped.count == draw.volume->near_cap_averted.count;
+        return draw.volume->near_cap.faces == 0 && draw.volume->near_cap_flipped.faces == 0;
     });
 }
 

@@ -41,8 +41,9 @@ Result<Picture> take_picture(gpu::Device& device, const Setting& setting,
     if (!renderer) return forward_error(renderer);
     if (const Status uploaded = renderer->upload(setting.scene); !uploaded)
         return forward_error(uploaded);
-    auto system = shadows::ShadowSystem::create(
-        {.force_technique = options.technique, .max_layers = options.max_layers});
+    auto system = shadows::ShadowSystem::create({.force_technique = options.technique,
+                                                 .max_layers = options.max_layers,
+                                                 .caps = options.caps});
     if (!system) return forward_error(system);
     scene::ShadowAdapter adapter;
     auto frame = system->begin_frame();

@@ -31,6 +31,7 @@ struct PictureOptions {
     shadows::NearCaps near_caps = shadows::NearCaps::Facing;
     shadow_pass::AvertedFaces averted_faces = shadow_pass::AvertedFaces::Shadowed;
     std::uint32_t max_layers = 255;
+    shadows::CapOptions caps = {};
     bool cull_back_faces = false;
     gpu::Compare volume_depth_compare = gpu::Compare::Greater;
     std::function<void(shadows::DrawList&)> mutate =

@@ -110,7 +110,7 @@ TEST(CastingCost, IsThatOfTheVolumesThatAreBuilt) {
                 VolumeSize size;
                 size.silhouette_edges = volume.silhouette_edges;
                 size.side_quads = volume.sides.count / 6;
-                size.cap_triangles = (volume.near_cap.count + volume.near_cap_flipped.count) / 3;
+                size.cap_triangles = volume.cap_faces();
                 EXPECT_EQ(size.index_bytes(), volume.indices.size() * sizeof(std::uint32_t));
                 sum += size;
                 return size;

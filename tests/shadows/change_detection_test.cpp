@@ -59,6 +59,7 @@ protected:
         ASSERT_EQ(list.draws.size(), expected.draws.size());
         for (std::size_t i = 0; i < list.draws.size(); ++i) {
             ASSERT_EQ(list.draws[i].volume->indices, expected.draws[i].volume->indices);
+            ASSERT_EQ(list.draws[i].volume->ranges, expected.draws[i].volume->ranges);
         }
     }
 
@@ -262,7 +263,7 @@ TEST_F(ChangeDetection, AnotherKindOfNearCapsIsDetectedOnce) {
     EXPECT_EQ(count(asked, Reason::NearCapsChanged), 1U);
     EXPECT_EQ(asked.stats.pairs_redetected, 1U);
     EXPECT_NE(asked.draws[0].revision, revision);
-    EXPECT_GT(asked.draws[0].volume->near_cap_averted.count, 0U);
+    EXPECT_GT(asked.draws[0].volume->near_cap_averted.faces, 0U);
     expect_as_from_nothing(asked);
     EXPECT_EQ(frame().stats.pairs_redetected, 0U);
     // Together with a move the reason is the caps: the move alone might have cost nothing.
@@ -270,7 +271,7 @@ TEST_F(ChangeDetection, AnotherKindOfNearCapsIsDetectedOnce) {
     casters_[0].world_from_local = translation({0.5, 0, 0});
     const DrawList back = frame();
     EXPECT_EQ(count(back, Reason::NearCapsChanged), 1U);
-    EXPECT_EQ(back.draws[0].volume->near_cap_averted.count, 0U);
+    EXPECT_EQ(back.draws[0].volume->near_cap_averted.faces, 0U);
     expect_as_from_nothing(back);
 }
 
@@ -335,11 +336,11 @@ TEST_F(ChangeDetection, OneStepOfSinglePrecisionOffAPlaneIsSeen) {
     // What composing poses rounds is forgiven; anything that the shader could tell is not.
     casters_[0].mesh = box_;
     lights_[0].position_world = point({5, 1, 0.25});  // in the plane of the top
-    EXPECT_EQ(frame().draws[0].volume->near_cap.count, 6U);
+    EXPECT_EQ(frame().draws[0].volume->near_cap.faces, 2U);
     lights_[0].position_world.y = 1.0 + 0x1p-23;
     const DrawList list = frame();
     EXPECT_EQ(list.stats.pairs_redetected, 1U);
-    EXPECT_EQ(list.draws[0].volume->near_cap.count, 12U);
+    EXPECT_EQ(list.draws[0].volume->near_cap.faces, 4U);
 }
 
 TEST_F(ChangeDetection, StepsBelowTheRoundingOfPosesAddUp) {
@@ -354,7 +355,7 @@ TEST_F(ChangeDetection, StepsBelowTheRoundingOfPosesAddUp) {
     }
     EXPECT_GT(unchanged, 500U) << "steps too large to mean anything";
     expect_as_from_nothing(frame());
-    EXPECT_EQ(frame().draws[0].volume->near_cap.count, 12U) << "the light has left the top's plane";
+    EXPECT_EQ(frame().draws[0].volume->near_cap.faces, 4U) << "the light has left the top's plane";
 }
 
 TEST_F(ChangeDetection, JitterStaysCertified) {
@@ -419,15 +420,15 @@ TEST_F(ChangeDetection, ALightThatEntersTheBoundsChangesTheKindOfCasting) {
     casters_[0].mesh = box_;
     lights_[0].position_world = point({1.5, 0.25, 0.5});
     DrawList list = frame();
-    EXPECT_EQ(list.draws[0].volume->near_cap_flipped.count, 0U);
+    EXPECT_EQ(list.draws[0].volume->near_cap_flipped.faces, 0U);
     lights_[0].position_world = point({0.5, 0.25, 0.5});
     list = frame();
     EXPECT_EQ(list.stats.pairs_redetected, 1U);
-    EXPECT_EQ(list.draws[0].volume->near_cap_flipped.count, 36U);
+    EXPECT_EQ(list.draws[0].volume->near_cap_flipped.faces, 12U);
     lights_[0].position_world = point({-1.5, 0.25, 0.5});
     list = frame();
     EXPECT_EQ(list.stats.pairs_redetected, 1U);
-    EXPECT_EQ(list.draws[0].volume->near_cap_flipped.count, 0U);
+    EXPECT_EQ(list.draws[0].volume->near_cap_flipped.faces, 0U);
 }
 
 TEST_F(ChangeDetection, ALightTurnsFromPointToDirectionAndBack) {
@@ -435,12 +436,12 @@ TEST_F(ChangeDetection, ALightTurnsFromPointToDirectionAndBack) {
     lights_[0].position_world.w = 0.0;
     DrawList list = frame();
     EXPECT_EQ(count(list, Reason::LightMoved), 1U);
-    EXPECT_EQ(list.draws[0].volume->far_cap.count, 0U);
+    EXPECT_FALSE(list.draws[0].volume->has_far_cap());
     expect_as_from_nothing(list);
     lights_[0].position_world.w = 1.0;
     list = frame();
     EXPECT_EQ(count(list, Reason::LightMoved), 1U);
-    EXPECT_GT(list.draws[0].volume->far_cap.count, 0U);
+    EXPECT_TRUE(list.draws[0].volume->has_far_cap());
     expect_as_from_nothing(list);
 }
 
@@ -452,13 +453,67 @@ TEST_F(ChangeDetection, AnotherProjectionRebuildsOnceAndForTheRightReason) {
     parallel.clip_from_view = orthographic(20, 20, 0.1, 100);
     DrawList list = frame(parallel);
     EXPECT_EQ(count(list, Reason::ProjectionChanged), 1U);
-    EXPECT_GT(list.draws[0].volume->far_cap.count, 0U) << "at finite places a far cap is needed";
+    EXPECT_TRUE(list.draws[0].volume->has_far_cap()) << "at finite places a far cap is needed";
     EXPECT_EQ(count(frame(parallel), Reason::Unchanged), 1U);
     View finite = some_view();
     finite.projection = ProjectionKind::FinitePerspective;
     finite.clip_from_view = finite_perspective(1, 1.5, 0.1, 100);
     EXPECT_EQ(count(frame(finite), Reason::Unchanged), 1U);
     EXPECT_EQ(count(frame(), Reason::ProjectionChanged), 1U);
+}
+
+TEST_F(ChangeDetection, AFanGivesWayToFacesBeforeTheLightIsWithinTheBounds) {
+    // A box without a lid: no face is near the light on its way in and out, so nothing but the fan
+    // needs to be detected anew.
+    test::Triangles open = test::box();
+    for (int i = 0; i < 2; ++i) {
+        const auto on_top = [&](std::size_t f) {
+            return std::all_of(&open.indices[3 * f], &open.indices[3 * f] + 3,
+                               [&](auto v) { return open.positions[v].y > 0.0F; });
+        };
+        std::size_t f = 0;
+        while (!on_top(f)) ++f;
+        test::remove_face(open, f);
+    }
+    casters_[0].mesh = test::build(open);
+    system_ = *ShadowSystem::create({.caps = {.far_cap = FarCap::Fan}});
+    std::size_t reused = 0;
+    bool was_fan = true;
+    std::size_t changes = 0;
+    for (int i = -400; i <= 1'500; ++i) {
+        const double y = 1.0 + 0.002 * std::abs(i) - 0.3;
+        lights_[0].position_world = point({0.1, y, 0.2});
+        const DrawList list = frame();
+        ASSERT_EQ(list.draws.size(), 1U);
+        const bool fan = list.draws[0].volume->made_with.caps.far_cap == FarCap::Fan;
+        ASSERT_TRUE(!fan || y > 1.0) << "y = " << y;
+        // On the way out faces are kept for as long as they are right.
+        ASSERT_TRUE(fan || y <= 1.0 || i > 0) << "y = " << y;
+        ASSERT_TRUE(is_closed(*list.draws[0].mesh, *list.draws[0].volume));
+        reused += count(list, Reason::WithinMargin);
+        changes += fan != was_fan ? 1 : 0;
+        was_fan = fan;
+    }
+    EXPECT_EQ(changes, 2U);
+    EXPECT_GT(reused, 100U);
+}
+
+TEST_F(ChangeDetection, AFanIsForPointLightsAndFarVerticesAtInfinity) {
+    system_ = *ShadowSystem::create({.caps = {.far_cap = FarCap::Fan}});
+    const auto far_cap = [](const DrawList& list) {
+        return list.draws[0].volume->made_with.caps.far_cap;
+    };
+    EXPECT_EQ(far_cap(frame()), FarCap::Fan);
+    View parallel = some_view();
+    parallel.projection = ProjectionKind::Orthographic;
+    parallel.clip_from_view = orthographic(20, 20, 0.1, 100);
+    EXPECT_EQ(far_cap(frame(parallel)), FarCap::Faces);
+    casters_[0].world_from_local = scaling({1, 0, 1});
+    EXPECT_EQ(far_cap(frame()), FarCap::Faces) << "there is no light in the caster's space";
+    casters_[0].world_from_local = glm::dmat4(1.0);
+    lights_[0].position_world = {0.3, 1, 0.2, 0};
+    EXPECT_EQ(far_cap(frame()), FarCap::Faces);
+    EXPECT_FALSE(frame().draws[0].volume->has_far_cap());
 }
 
 }  // namespace

@@ -89,11 +89,11 @@ std::vector<SignedTriangle> placed(const ShadowMesh& mesh, const Volume& volume,
         return glm::dvec3(far[index / 2]) / static_cast<double>(far[index / 2].w);
     };
     std::vector<SignedTriangle> triangles;
-    for (std::uint32_t i = 0; i < volume.indices.size(); i += 3) {
-        triangles.push_back({place(volume.indices[i]), place(volume.indices[i + 1]),
-                             place(volume.indices[i + 2]),
-                             i >= volume.near_cap_flipped.first ? -1 : 1});
-    }
+    for_each_triangle(
+        mesh, volume, [&](const std::array<std::uint32_t, 3>& triangle, bool exchanged) {
+            triangles.push_back(
+                {place(triangle[0]), place(triangle[1]), place(triangle[2]), exchanged ? -1 : 1});
+        });
     return triangles;
 }
 
@@ -128,8 +128,11 @@ Shadowed shadow_of(std::shared_ptr<const ShadowMesh> mesh, LightLocal light,
     std::vector<SilhouetteEdge> silhouette;
     find_silhouette(*s.mesh, s.weights, silhouette);
     Volume volume;
-    build_volume(*s.mesh, s.weights, silhouette, light.is_directional(), FarVertices::Finite,
-                 volume);
+    std::vector<FaceRun> casting;
+    runs_of(s.weights, casting);
+    // Half of the caps in ranges, as many as may be.
+    build_volume(*s.mesh, casting, silhouette,
+                 {light.is_directional(), FarVertices::Finite, {.draw_worth_faces = 3}}, volume);
     s.volume = placed(*s.mesh, volume, finite_extrusion(light, reach));
     return s;
 }

@@ -30,10 +30,15 @@ struct Case {
     Volume volume;
 };
 
+// With ranges: most casting faces of even the smallest meshes are in one.
+constexpr CapOptions in_ranges{.draw_worth_faces = 2, .max_ranges = 5};
+
 void build_case_volume(Case& c, FarVertices far_vertices) {
     std::vector<SilhouetteEdge> silhouette;
     find_silhouette(*c.mesh, c.facing.weights, silhouette);
-    build_volume(*c.mesh, c.facing.weights, silhouette, c.space.light.w == 0.0, far_vertices,
+    std::vector<FaceRun> casting;
+    runs_of(c.facing.weights, casting);
+    build_volume(*c.mesh, casting, silhouette, {c.space.light.w == 0.0, far_vertices, in_ranges},
                  c.volume, c.facing.solid_averted);
 }
 
@@ -216,31 +221,30 @@ TEST(LayerBound, SeenFromOutsideMeansAHalfSpace) {
 
 using FaceCounts = std::map<std::array<std::uint32_t, 3>, int>;
 
-void add_caps(const Volume& volume, FaceCounts& counts) {
-    for (const auto& [range, sign] :
-         {std::pair(volume.near_cap, 1), std::pair(volume.near_cap_flipped, -1)}) {
-        for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
-            counts[{volume.indices[i], volume.indices[i + 1], volume.indices[i + 2]}] += sign;
-        }
+void add_caps(const ShadowMesh& mesh, const Volume& volume, FaceCounts& counts) {
+    int sign = 1;
+    for (const CapList& list : volume.near_caps()) {
+        for_each_cap_face(mesh, volume, list,
+                          [&](const std::array<std::uint32_t, 3>& face) { counts[face] += sign; });
+        sign = -1;
     }
 }
 
-void expect_parts_make_the_whole(const Case& c, FarVertices far_vertices, std::uint32_t limit) {
-    const bool one_far_point = c.space.light.w == 0.0 && far_vertices == FarVertices::AtInfinity;
+void expect_parts_make_the_whole(const Case& c, std::uint32_t limit) {
     FaceCounts whole;
-    add_caps(c.volume, whole);
+    add_caps(*c.mesh, c.volume, whole);
     FaceCounts together;
     std::uint32_t averted = 0;
-    for (const LayerPart& part : split_volume(*c.mesh, c.volume, c.space, far_vertices, limit)) {
-        EXPECT_FALSE(part.volume.indices.empty());
-        EXPECT_TRUE(is_closed(part.volume, one_far_point));
+    for (const LayerPart& part : split_volume(*c.mesh, c.volume, c.space, limit)) {
+        EXPECT_FALSE(part.volume.empty());
+        EXPECT_TRUE(is_closed(*c.mesh, part.volume));
         EXPECT_LE(part.layers, limit);
         EXPECT_EQ(part.layers, layer_bound(*c.mesh, part.volume, c.space));
-        add_caps(part.volume, together);
-        averted += part.volume.near_cap_averted.count;
+        add_caps(*c.mesh, part.volume, together);
+        averted += part.volume.near_cap_averted.faces;
     }
     EXPECT_EQ(together, whole);
-    EXPECT_EQ(averted, c.volume.near_cap_averted.count);
+    EXPECT_EQ(averted, c.volume.near_cap_averted.faces);
 }
 
 TEST(SplitVolume, PartsAreClosedAndMakeTheWhole) {
@@ -253,10 +257,10 @@ TEST(SplitVolume, PartsAreClosedAndMakeTheWhole) {
             random.chance(0.5) ? FarVertices::AtInfinity : FarVertices::Finite;
         const Case c = make_case(mesh, test::random_light(random, *mesh), far_vertices,
                                  random.chance(0.5) ? NearCaps::Facing : NearCaps::Averted);
-        averted += c.volume.near_cap_averted.count > 0 ? 1 : 0;
+        averted += c.volume.near_cap_averted.faces > 0 ? 1 : 0;
         for (const std::uint32_t limit : {1U, 3U, 127U}) {
             SCOPED_TRACE(testing::Message() << "mesh " << i << " limit " << limit);
-            expect_parts_make_the_whole(c, far_vertices, limit);
+            expect_parts_make_the_whole(c, limit);
             if (HasFailure()) return;
         }
     }
@@ -265,14 +269,16 @@ TEST(SplitVolume, PartsAreClosedAndMakeTheWhole) {
 
 TEST(SplitVolume, AVolumeWithinTheLimitIsOnePartAndTheSame) {
     const Case c = make_case(test::build(test::torus(24, 12)), {{3.0F, 5.0F, 1.0F, 1.0F}});
-    const auto parts = split_volume(*c.mesh, c.volume, c.space, FarVertices::AtInfinity, 127);
+    const auto parts = split_volume(*c.mesh, c.volume, c.space, 127);
     ASSERT_EQ(parts.size(), 1U);
     EXPECT_EQ(parts[0].volume.indices, c.volume.indices);
+    EXPECT_EQ(parts[0].volume.ranges, c.volume.ranges);
+    EXPECT_FALSE(c.volume.ranges.empty());
 }
 
 TEST(SplitVolume, ShellsAreCutBetweenEachOther) {
     const Case c = make_case(test::build(shells(300, 0.01F)), {{3.0F, 9.0F, 2.0F, 1.0F}});
-    const auto parts = split_volume(*c.mesh, c.volume, c.space, FarVertices::AtInfinity, 127);
+    const auto parts = split_volume(*c.mesh, c.volume, c.space, 127);
     EXPECT_EQ(parts.size(), 3U);
     std::uint32_t sides = 0;
     for (const LayerPart& part : parts) sides += part.volume.sides.count;
@@ -300,9 +306,9 @@ TEST(SplitVolume, APatchThatOverlapsItselfIsCutByDistance) {
     const std::uint32_t bound = layer_bound(*c.mesh, c.volume, c.space);
     EXPECT_GE(bound, 300U);
     EXPECT_LE(bound, 310U);
-    const auto parts = split_volume(*c.mesh, c.volume, c.space, FarVertices::AtInfinity, 127);
+    const auto parts = split_volume(*c.mesh, c.volume, c.space, 127);
     EXPECT_LE(parts.size(), 4U);
-    expect_parts_make_the_whole(c, FarVertices::AtInfinity, 127);
+    expect_parts_make_the_whole(c, 127);
 }
 
 }  // namespace

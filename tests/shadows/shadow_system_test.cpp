@@ -317,10 +317,22 @@ TEST_F(System, ATinyUniformScaleIsNotAFlatOne) {
     const DrawList list =
         one({.key = 1, .mesh = box_, .world_from_local = scaling(glm::dvec3(1e-9))}, lamp_);
     ASSERT_EQ(list.draws.size(), 1U);
-    EXPECT_EQ(list.draws[0].volume->near_cap_flipped.count, 0U) << "one-sided, as a closed box is";
+    EXPECT_EQ(list.draws[0].volume->near_cap_flipped.faces, 0U) << "one-sided, as a closed box is";
 }
 
 // The volume in the world, as the shader would place it: far vertices homogeneous.
+// The triangles that have no near vertex.
+std::vector<std::array<std::uint32_t, 3>> far_cap_of(const VolumeDraw& draw) {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for_each_triangle(*draw.mesh, *draw.volume,
+                      [&](const std::array<std::uint32_t, 3>& triangle, bool) {
+                          if ((triangle[0] & triangle[1] & triangle[2] & 1U) != 0) {
+                              triangles.push_back(triangle);
+                          }
+                      });
+    return triangles;
+}
+
 glm::dvec4 far_vertex(const VolumeDraw& draw, const glm::vec3& p) {
     std::vector<glm::vec4> far;
     extrude(std::vector{p}, draw.extrusion, far);
@@ -342,9 +354,9 @@ TEST_F(System, SingularPosesCastBothWaysAndAreClosed) {
                 if (list.draws.empty()) continue;  // edge-on
                 const VolumeDraw& draw = list.draws[0];
                 const bool infinite = view.projection == ProjectionKind::InfinitePerspective;
-                EXPECT_TRUE(is_closed(*draw.volume, infinite && light.w == 0.0));
-                EXPECT_GT(draw.volume->near_cap.count, 0U);
-                EXPECT_GT(draw.volume->near_cap_flipped.count, 0U);
+                EXPECT_TRUE(is_closed(*draw.mesh, *draw.volume));
+                EXPECT_GT(draw.volume->near_cap.faces, 0U);
+                EXPECT_GT(draw.volume->near_cap_flipped.faces, 0U);
                 EXPECT_FALSE(draw.mirrored);
                 for (const glm::vec3& p : ball_->positions()) {
                     const glm::dvec3 near(pose * glm::dvec4(glm::dvec3(p), 1.0));
@@ -410,17 +422,18 @@ TEST_F(System, FiniteFarVerticesLieBeyondEverythingInView) {
         std::vector<glm::dvec3> seen;
         for (const auto& p : near_corners(view)) seen.push_back(p);
         for (const auto& p : far_corners(view)) seen.push_back(p);
-        const auto far_at = [&](std::uint32_t k) {
-            const glm::dvec4 v = far_vertex(draw, mesh->positions()[draw.volume->indices[k] / 2]);
+        const auto far_at = [&](std::uint32_t index) {
+            const glm::dvec4 v = far_vertex(draw, mesh->positions()[index / 2]);
             return glm::dvec3(v) / v.w;
         };
-        const IndexRange range = draw.volume->far_cap;
-        ASSERT_GT(range.count, 0U);
+        const auto far_cap = far_cap_of(draw);
+        ASSERT_EQ(far_cap.size(), draw.volume->cap_faces());
+        ASSERT_GT(far_cap.size(), 0U);
         const glm::dvec3 l(light.position_world);
-        for (std::uint32_t k = range.first; k < range.first + range.count; k += 3) {
-            const glm::dvec3 a = far_at(k);
-            const glm::dvec3 b = far_at(k + 1);
-            const glm::dvec3 c = far_at(k + 2);
+        for (const auto& triangle : far_cap) {
+            const glm::dvec3 a = far_at(triangle[0]);
+            const glm::dvec3 b = far_at(triangle[1]);
+            const glm::dvec3 c = far_at(triangle[2]);
             for (const glm::dvec3& p : seen) {
                 if (directional) {
                     for (const glm::dvec3& v : {a, b, c}) ASSERT_LT(glm::dot(v - p, l), 0.0);
@@ -452,10 +465,12 @@ TEST_F(System, ReachFollowsACasterThatIsScaledAboutTheLight) {
         const VolumeDraw& draw = list.draws[0];
         double farthest = 0.0;
         for (const auto& p : far_corners(view)) farthest = std::max(farthest, glm::length(p - l));
-        for (std::uint32_t i = 0; i < draw.volume->far_cap.count; ++i) {
-            const std::uint32_t index = draw.volume->indices[draw.volume->far_cap.first + i];
-            const glm::dvec4 v = far_vertex(draw, ball_->positions()[index / 2]);
-            ASSERT_GT(glm::length(glm::dvec3(v) / v.w - l), farthest) << "scale " << k;
+        ASSERT_FALSE(far_cap_of(draw).empty());
+        for (const auto& triangle : far_cap_of(draw)) {
+            for (const std::uint32_t index : triangle) {
+                const glm::dvec4 v = far_vertex(draw, ball_->positions()[index / 2]);
+                ASSERT_GT(glm::length(glm::dvec3(v) / v.w - l), farthest) << "scale " << k;
+            }
         }
     }
 }
@@ -498,8 +513,8 @@ TEST_F(System, DepthPassDrawsNearCapsOfEitherKindWhereFacesAreNotInTheDepthBuffe
             EXPECT_EQ(list.draws[0].technique, Technique::DepthPass);
             EXPECT_EQ(list.draws[0].near_caps, !in_depth_buffer);
             const bool averted = near_caps == NearCaps::Averted;
-            EXPECT_EQ(list.draws[0].volume->near_cap_averted.count > 0, averted);
-            EXPECT_EQ(list.draws[0].volume->near_cap.count > 0, !averted);
+            EXPECT_EQ(list.draws[0].volume->near_cap_averted.faces > 0, averted);
+            EXPECT_EQ(list.draws[0].volume->near_cap.faces > 0, !averted);
         }
     }
 }

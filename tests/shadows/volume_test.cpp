@@ -60,7 +60,7 @@ std::vector<std::uint32_t> cap(const ShadowMesh& mesh, const std::vector<std::in
     return indices;
 }
 
-std::vector<std::uint32_t> slice(const Volume& volume, IndexRange range) {
+std::vector<std::uint32_t> slice(const Volume& volume, const IndexRange& range) {
     const auto begin = volume.indices.begin() + range.first;
     return {begin, begin + range.count};
 }
@@ -75,7 +75,7 @@ TEST(Volume, IsClosedForAnyMeshAnyLightAnyWeights) {
         const bool one_far_point = light.is_directional() && far == FarVertices::AtInfinity;
         const auto [silhouette, volume] = make(*mesh, weights, light.is_directional(), far);
 
-        ASSERT_TRUE(is_closed(volume, one_far_point)) << "mesh " << i;
+        ASSERT_TRUE(is_closed(*mesh, volume)) << "mesh " << i;
 
         // The ranges follow each other and hold what they must.
         std::uint32_t sides = 0;
@@ -83,21 +83,145 @@ TEST(Volume, IsClosedForAnyMeshAnyLightAnyWeights) {
         std::uint32_t layers = 0;
         for (const int w : weights) layers += static_cast<std::uint32_t>(std::abs(w));
         ASSERT_EQ(volume.silhouette_edges, silhouette.size());
-        ASSERT_EQ(volume.sides.first, 0U);
-        ASSERT_EQ(volume.sides.count, sides * (one_far_point ? 3 : 6));
-        ASSERT_EQ(volume.near_cap.first, volume.sides.count);
-        ASSERT_EQ(volume.far_cap.first, volume.near_cap.first + volume.near_cap.count);
+        ASSERT_EQ(volume.far_cap.first, 0U);
         ASSERT_EQ(volume.far_cap.count, one_far_point ? 0 : 3 * layers);
-        ASSERT_EQ(volume.near_cap_flipped.first, volume.far_cap.first + volume.far_cap.count);
-        ASSERT_EQ(volume.indices.size(),
-                  volume.near_cap_flipped.first + volume.near_cap_flipped.count);
+        ASSERT_EQ(volume.sides.first, volume.far_cap.count);
+        ASSERT_EQ(volume.sides.count, sides * (one_far_point ? 3 : 6));
+        const IndexRange& near = volume.near_cap.triples;
+        ASSERT_EQ(near.first, volume.sides.first + volume.sides.count);
+        const IndexRange& flipped = volume.near_cap_flipped.triples;
+        ASSERT_EQ(flipped.first, near.first + near.count);
+        ASSERT_EQ(volume.near_cap_averted.triples.first, flipped.first + flipped.count);
+        ASSERT_EQ(volume.near_cap_averted.triples.count, 0U);
+        ASSERT_EQ(volume.indices.size(), flipped.first + flipped.count);
+        ASSERT_TRUE(volume.ranges.empty());
+        ASSERT_EQ(volume.far_copies, FarCopies::None);
 
-        ASSERT_EQ(slice(volume, volume.near_cap), cap(*mesh, weights, 1));
-        ASSERT_EQ(slice(volume, volume.near_cap_flipped), cap(*mesh, weights, -1));
+        ASSERT_EQ(slice(volume, near), cap(*mesh, weights, 1));
+        ASSERT_EQ(slice(volume, flipped), cap(*mesh, weights, -1));
         for (const std::uint32_t index : slice(volume, volume.far_cap)) ASSERT_EQ(index % 2, 1U);
         for (const std::uint32_t index : volume.indices) {
             ASSERT_LT(index, 2 * mesh->positions().size());
         }
+    }
+}
+
+TEST(Volume, WithRangesIsTheSameTriangles) {
+    GNOMON_RANDOM(random);
+    using Drawn = std::vector<std::pair<std::array<std::uint32_t, 3>, bool>>;
+    // Far caps are turned round where they are written out: so all begin with the least corner and
+    // say which way round they are.
+    const auto drawn = [](const ShadowMesh& mesh, const Volume& volume) {
+        Drawn triangles;
+        for_each_triangle(mesh, volume, [&](std::array<std::uint32_t, 3> t, bool exchanged) {
+            const bool far = (t[0] & t[1] & t[2] & 1U) != 0;
+            if (far && exchanged) {
+                std::swap(t[0], t[2]);
+                exchanged = false;
+            }
+            triangles.emplace_back(t, exchanged);
+        });
+        std::sort(triangles.begin(), triangles.end());
+        return triangles;
+    };
+    std::size_t with_ranges = 0;
+    std::size_t limited = 0;
+    std::array<std::size_t, 3> kinds{};
+    std::array<std::size_t, 3> copies{};
+    for (int i = 0; i < 4'000; ++i) {
+        const auto mesh = test::build(test::random_mesh(random));
+        const LightLocal light = test::random_light(random, *mesh);
+        std::vector<std::int8_t> weights = weights_for(random, *mesh, light);
+        std::vector<std::uint8_t> averted;
+        if (random.chance(0.5)) {
+            Facing facing;
+            classify_faces(*mesh, light, facing, NearCaps::Averted);
+            weights = facing.weights;
+            averted = facing.solid_averted;
+        }
+        const VolumeOptions options{
+            light.is_directional(),
+            random.chance(0.5) ? FarVertices::AtInfinity : FarVertices::Finite,
+            {.draw_worth_faces = random.below(12), .max_ranges = random.below(6)}};
+        std::vector<SilhouetteEdge> silhouette;
+        find_silhouette(*mesh, weights, silhouette);
+        std::vector<FaceRun> casting;
+        runs_of(weights, casting);
+        Volume plain;
+        build_volume(*mesh, weights, silhouette, options.directional, options.far_vertices, plain,
+                     averted);
+        Volume volume;
+        build_volume(*mesh, casting, silhouette, options, volume, averted);
+        ASSERT_EQ(drawn(*mesh, volume), drawn(*mesh, plain)) << "mesh " << i;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const CapList list = volume.near_caps()[k];
+            ASSERT_EQ(list.faces, plain.near_caps()[k].faces);
+            kinds[k] += list.ranges.count > 0 ? 1 : 0;
+        }
+        const CapOptions& caps = options.caps;
+        ASSERT_LE(volume.ranges.size(), caps.max_ranges);
+        std::size_t runs_long_enough = 0;
+        for (const FaceRun& run : casting) {
+            runs_long_enough +=
+                std::abs(run.weight) == 1 && run.count >= caps.draw_worth_faces ? 1 : 0;
+        }
+        if (averted.empty()) {
+            ASSERT_EQ(volume.ranges.size(),
+                      std::min<std::size_t>(runs_long_enough, caps.max_ranges));
+        }
+        for (const FaceRange& range : volume.ranges) {
+            ASSERT_GE(range.count, caps.draw_worth_faces);
+        }
+        with_ranges += volume.ranges.empty() ? 0 : 1;
+        limited += runs_long_enough > caps.max_ranges ? 1 : 0;
+        ++copies[static_cast<std::size_t>(volume.far_copies)];
+    }
+    EXPECT_GT(with_ranges, 1'000U);
+    EXPECT_GT(limited, 300U);
+    for (const std::size_t count : kinds) EXPECT_GT(count, 50U);
+    for (const std::size_t count : copies) EXPECT_GT(count, 300U);
+}
+
+TEST(Volume, TakesTheLongestRunsAsRanges) {
+    const auto mesh = test::build(test::sphere(8, 12));
+    const std::vector<FaceRun> casting{{0, 9, 1},   {10, 20, -1}, {40, 10, 1},
+                                       {60, 12, 2}, {80, 10, 1},  {100, 30, 1}};
+    Volume volume;
+    const auto ranges = [&](std::uint32_t worth, std::uint32_t most) {
+        build_volume(*mesh, casting, {}, {.caps = {.draw_worth_faces = worth, .max_ranges = most}},
+                     volume);
+        return volume.ranges;
+    };
+    using Ranges = std::vector<FaceRange>;
+    EXPECT_EQ(ranges(10, 9), (Ranges{{40, 10}, {80, 10}, {100, 30}, {10, 20}}))
+        << "by kind; a face that casts twice is in none";
+    EXPECT_EQ(volume.near_cap.triples.count, 3U * (9 + 2 * 12));
+    EXPECT_EQ(ranges(10, 3), (Ranges{{40, 10}, {100, 30}, {10, 20}})) << "of equals the first";
+    EXPECT_EQ(ranges(10, 1), (Ranges{{100, 30}}));
+    EXPECT_EQ(volume.near_cap_flipped.triples.count, 3U * 20);
+    EXPECT_EQ(ranges(25, 9), (Ranges{{100, 30}}));
+    EXPECT_TRUE(ranges(31, 9).empty());
+}
+
+TEST(Volume, WithAFanIsClosedAsWell) {
+    GNOMON_RANDOM(random);
+    for (int i = 0; i < 2'000; ++i) {
+        const auto mesh = test::build(test::random_mesh(random));
+        const LightLocal light = test::random_light(random, *mesh);
+        const auto weights = weights_for(random, *mesh, light);
+        const auto far = random.chance(0.5) ? FarVertices::AtInfinity : FarVertices::Finite;
+        std::vector<SilhouetteEdge> silhouette;
+        find_silhouette(*mesh, weights, silhouette);
+        std::vector<FaceRun> casting;
+        runs_of(weights, casting);
+        Volume volume;
+        build_volume(*mesh, casting, silhouette,
+                     {light.is_directional(), far, {.far_cap = FarCap::Fan, .draw_worth_faces = 3}},
+                     volume);
+        ASSERT_TRUE(is_closed(*mesh, volume)) << "mesh " << i;
+        ASSERT_EQ(volume.far_copies, FarCopies::None);
+        ASSERT_EQ(volume.far_cap.count,
+                  volume.made_with.one_far_point() ? 0 : volume.sides.count / 2);
     }
 }
 
@@ -117,8 +241,7 @@ TEST(Volume, IsClosedWithCapsOnAvertedFaces) {
         Volume volume;
         build_volume(*mesh, averted.weights, silhouette, light.is_directional(), far, volume,
                      averted.solid_averted);
-        ASSERT_TRUE(is_closed(volume, light.is_directional() && far == FarVertices::AtInfinity))
-            << "mesh " << i;
+        ASSERT_TRUE(is_closed(*mesh, volume)) << "mesh " << i;
 
         // The caps of solids come last, and the others are as they are without them.
         std::vector<std::int8_t> of_solids(averted.weights.size(), 0);
@@ -127,15 +250,13 @@ TEST(Volume, IsClosedWithCapsOnAvertedFaces) {
             if (averted.solid_averted[mesh->face_components()[f]] == 0) continue;
             std::swap(of_solids[f], of_others[f]);
         }
-        ASSERT_EQ(slice(volume, volume.near_cap_averted), cap(*mesh, of_solids, -1));
-        ASSERT_EQ(slice(volume, volume.near_cap), cap(*mesh, of_others, 1));
-        ASSERT_EQ(volume.near_cap_averted.first + volume.near_cap_averted.count,
-                  volume.near_cap_flipped.first + volume.near_cap_flipped.count);
-        IndexRange rest = volume.near_cap_flipped;
-        rest.count -= volume.near_cap_averted.count;
-        ASSERT_EQ(slice(volume, rest), cap(*mesh, of_others, -1));
-        with_averted += volume.near_cap_averted.count > 0 ? 1 : 0;
-        with_others += volume.near_cap_averted.count > 0 && rest.count > 0 ? 1 : 0;
+        const CapList& of_averted = volume.near_cap_averted;
+        const CapList& rest = volume.near_cap_flipped;
+        ASSERT_EQ(slice(volume, of_averted.triples), cap(*mesh, of_solids, -1));
+        ASSERT_EQ(slice(volume, volume.near_cap.triples), cap(*mesh, of_others, 1));
+        ASSERT_EQ(slice(volume, rest.triples), cap(*mesh, of_others, -1));
+        with_averted += of_averted.faces > 0 ? 1 : 0;
+        with_others += of_averted.faces > 0 && rest.faces > 0 ? 1 : 0;
 
         // Where no face is edge-on, both kinds end at the same edges, run the same way.
         Facing facing;
@@ -148,7 +269,7 @@ TEST(Volume, IsClosedWithCapsOnAvertedFaces) {
         std::vector<SilhouetteEdge> outline;
         find_silhouette(*mesh, facing.weights, outline);
         ASSERT_EQ(silhouette, outline) << "mesh " << i;
-        same_outlines += volume.near_cap_averted.count > 0 ? 1 : 0;
+        same_outlines += volume.near_cap_averted.faces > 0 ? 1 : 0;
     }
     EXPECT_GT(with_averted, 300);
     EXPECT_GT(with_others, 10);
@@ -160,11 +281,12 @@ TEST(Volume, ReplacesWhatWasThereBefore) {
     const std::vector<std::int8_t> weights(12, 0);
     Volume volume;
     volume.indices = {1, 2, 3};
+    volume.ranges = {{0, 4}};
     volume.silhouette_edges = 5;
     build_volume(*mesh, weights, {}, false, FarVertices::AtInfinity, volume);
-    EXPECT_TRUE(volume.indices.empty());
+    EXPECT_TRUE(volume.empty());
     EXPECT_EQ(volume.silhouette_edges, 0U);
-    EXPECT_TRUE(is_closed(volume, false));
+    EXPECT_TRUE(is_closed(*mesh, volume));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -182,9 +304,7 @@ protected:
             -1;
         return make(*mesh_, facing.weights, directional(), FarVertices::AtInfinity).volume;
     }
-    void expect_broken(const Volume& volume) const {
-        EXPECT_FALSE(is_closed(volume, directional()));
-    }
+    void expect_broken(const Volume& volume) const { EXPECT_FALSE(is_closed(*mesh_, volume)); }
     // The range's triangles become points, which have no edges.
     static void drop(Volume& volume, IndexRange range) {
         for (std::uint32_t i = 0; i < range.count; ++i) {
@@ -194,7 +314,7 @@ protected:
     std::shared_ptr<const ShadowMesh> mesh_ = test::build(test::sphere(4, 6));
 };
 
-TEST_P(BrokenVolume, IsWholeBeforeItIsBroken) { EXPECT_TRUE(is_closed(whole(), directional())); }
+TEST_P(BrokenVolume, IsWholeBeforeItIsBroken) { EXPECT_TRUE(is_closed(*mesh_, whole())); }
 
 TEST_P(BrokenVolume, NoticesAnyMissingTriangle) {
     const Volume good = whole();
@@ -215,19 +335,56 @@ TEST_P(BrokenVolume, NoticesAnyFlippedTriangle) {
 }
 
 TEST_P(BrokenVolume, NoticesAMissingCap) {
-    for (const auto range :
-         {&Volume::sides, &Volume::near_cap, &Volume::far_cap, &Volume::near_cap_flipped}) {
-        Volume bad = whole();
-        if ((bad.*range).count == 0) continue;  // directional: no far cap to miss
-        drop(bad, bad.*range);
+    const Volume good = whole();
+    for (const IndexRange& range :
+         {good.sides, good.near_cap.triples, good.far_cap, good.near_cap_flipped.triples}) {
+        if (range.count == 0) continue;  // directional: no far cap to miss
+        Volume bad = good;
+        drop(bad, range);
         expect_broken(bad);
     }
 }
 
-TEST_P(BrokenVolume, NoticesAWrongRangeOfFlippedCaps) {
+TEST_P(BrokenVolume, NoticesAMissingListOfFlippedCaps) {
     Volume bad = whole();
-    bad.near_cap_flipped.count = 0;
+    bad.near_cap_flipped = {};
     expect_broken(bad);
+}
+
+TEST_P(BrokenVolume, NoticesFlippedCapsAmongTheOthers) {
+    Volume bad = whole();
+    bad.near_cap.triples.count += bad.near_cap_flipped.triples.count;
+    bad.near_cap_flipped = {};
+    expect_broken(bad);
+}
+
+TEST_P(BrokenVolume, NoticesAnyWrongRange) {
+    Facing facing;
+    classify_faces(*mesh_, {glm::vec4(3, 4, 5, directional() ? 0 : 1)}, facing);
+    std::vector<SilhouetteEdge> silhouette;
+    find_silhouette(*mesh_, facing.weights, silhouette);
+    std::vector<FaceRun> casting;
+    runs_of(facing.weights, casting);
+    Volume good;
+    build_volume(*mesh_, casting, silhouette,
+                 {directional(), FarVertices::AtInfinity, {.draw_worth_faces = 2}}, good);
+    EXPECT_TRUE(is_closed(*mesh_, good));
+    ASSERT_GT(good.ranges.size(), 2U);
+    for (std::size_t i = 0; i < good.ranges.size(); ++i) {
+        Volume bad = good;
+        --bad.ranges[i].count;
+        expect_broken(bad);
+        bad = good;
+        bad.ranges[i] = good.ranges[(i + 1) % good.ranges.size()];
+        expect_broken(bad);
+    }
+    if (directional()) return;  // no far caps
+    for (const FarCopies copies : {FarCopies::None, FarCopies::OfRanges, FarCopies::OfAll}) {
+        if (copies == good.far_copies) continue;
+        Volume bad = good;
+        bad.far_copies = copies;
+        if (bad.near_cap.triples.count > 0 || copies == FarCopies::None) expect_broken(bad);
+    }
 }
 
 TEST_P(BrokenVolume, NoticesOneFacingBitThatOnlyTheSidesSaw) {
@@ -252,11 +409,12 @@ TEST(Volume, FarVerticesAreOnePointOnlyWhereTheyAreAtInfinity) {
     const auto mesh = test::build(test::box());
     Facing facing;
     classify_faces(*mesh, {{3, 4, 5, 0}}, facing);
-    const Volume at_infinity = make(*mesh, facing.weights, true, FarVertices::AtInfinity).volume;
-    EXPECT_TRUE(is_closed(at_infinity, true));
-    EXPECT_FALSE(is_closed(at_infinity, false))
+    Volume at_infinity = make(*mesh, facing.weights, true, FarVertices::AtInfinity).volume;
+    EXPECT_TRUE(is_closed(*mesh, at_infinity));
+    at_infinity.made_with.directional = false;
+    EXPECT_FALSE(is_closed(*mesh, at_infinity))
         << "the far ends are open unless they are one point";
-    EXPECT_TRUE(is_closed(make(*mesh, facing.weights, true, FarVertices::Finite).volume, false));
+    EXPECT_TRUE(is_closed(*mesh, make(*mesh, facing.weights, true, FarVertices::Finite).volume));
 }
 
 TEST(Volume, NeighboursSplitACommonSideAlike) {
@@ -268,7 +426,8 @@ TEST(Volume, NeighboursSplitACommonSideAlike) {
         const std::vector<std::int8_t> weights{1};
         const Volume volume = make(mesh, weights, false, FarVertices::AtInfinity).volume;
         std::vector<glm::vec3> starts;
-        for (std::uint32_t t = 0; t < volume.sides.count; t += 3) {
+        for (std::uint32_t t = volume.sides.first; t < volume.sides.first + volume.sides.count;
+             t += 3) {
             std::vector<std::uint32_t> near;
             std::vector<std::uint32_t> far;
             for (std::uint32_t i = 0; i < 3; ++i) {

@@ -72,6 +72,7 @@ protected:
         const Setting setting = row.make();
         PictureOptions all_depth_fail = options;
         all_depth_fail.technique = shadows::Technique::DepthFail;
+        all_depth_fail.caps = shadows::CapOptions::plain();  // so that they can be spoilt
         return judge_lights(trace_lights(setting),
                             must(take_picture(device->device, setting, all_depth_fail)).masks);
     }
@@ -99,7 +100,8 @@ TEST_F(Mutation, an_unchanged_copy_is_right) {
 
 TEST_F(Mutation, rotated_near_caps_are_found) {
     const auto rotate = [](const shadows::VolumeDraw&, shadows::Volume& volume) {
-        for (const shadows::IndexRange& cap : {volume.near_cap, volume.near_cap_flipped}) {
+        for (const shadows::CapList& list : volume.near_caps()) {
+            const shadows::IndexRange& cap = list.triples;
             for (std::uint32_t i = cap.first; i < cap.first + cap.count; i += 3) {
                 std::rotate(&volume.indices[i], &volume.indices[i + 1], &volume.indices[i] + 3);
             }
@@ -112,34 +114,17 @@ TEST_F(Mutation, a_facing_bit_that_only_the_sides_see_is_found) {
     const auto flip = [](const shadows::VolumeDraw& draw, shadows::Volume& volume) {
         // The sides of a silhouette in which one casting face was forgotten; caps as they were.
         std::vector<std::int8_t> weights(draw.mesh->faces().size(), 0);
-        const std::uint32_t first = volume.near_cap.first;
-        std::size_t cap = 0;
-        for (std::size_t f = 0; f < weights.size() && cap < volume.near_cap.count; ++f) {
-            const auto& face = draw.mesh->faces()[f];
-            if (volume.indices[first + cap] == 2 * face[0] &&
-                volume.indices[first + cap + 1] == 2 * face[1] &&
-                volume.indices[first + cap + 2] == 2 * face[2]) {
-                weights[f] = 1;
-                cap += 3;
-            }
-        }
-        weights[static_cast<std::size_t>(std::find(weights.begin(), weights.end(), 1) -
-                                         weights.begin())] = 0;
+        std::size_t f = 0;
+        shadows::for_each_cap_face(*draw.mesh, volume, volume.near_cap, [&](const auto& face) {
+            while (draw.mesh->faces()[f] != face) ++f;
+            weights[f] = 1;
+        });
+        std::vector<std::int8_t> forgetful = weights;
+        *std::find(forgetful.begin(), forgetful.end(), 1) = 0;
         std::vector<shadows::SilhouetteEdge> silhouette;
-        shadows::find_silhouette(*draw.mesh, weights, silhouette);
-        shadows::Volume other;
+        shadows::find_silhouette(*draw.mesh, forgetful, silhouette);
         shadows::build_volume(*draw.mesh, weights, silhouette, false,
-                              shadows::FarVertices::AtInfinity, other);
-        std::vector<std::uint32_t> indices(other.indices.begin(),
-                                           other.indices.begin() + other.sides.count);
-        const auto shift = other.sides.count - volume.sides.count;
-        indices.insert(indices.end(), volume.indices.begin() + volume.sides.count,
-                       volume.indices.end());
-        volume.indices = std::move(indices);
-        volume.sides = other.sides;
-        volume.near_cap.first += shift;
-        volume.far_cap.first += shift;
-        volume.near_cap_flipped.first += shift;
+                              shadows::FarVertices::AtInfinity, volume);
     };
     EXPECT_GT(judge_with(changing(flip)).wrong(), 0U);
 }

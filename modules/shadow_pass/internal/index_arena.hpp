@@ -24,7 +24,7 @@ class IndexArena {
 public:
     explicit IndexArena(gpu::Device& device) : device_(&device) {}
 
-    /// Finds room, uploads, and says where.
+    /// Finds room, uploads, and says where. No indices need no room: a run of none, in no buffer.
     Result<IndexRun> upload(std::span<const std::uint32_t> indices);
     void free(const IndexRun& run);
 

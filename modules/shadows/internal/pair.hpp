@@ -159,7 +159,6 @@ struct Scratch {
     Facing facing;  ///< of singular poses
     Detection flattened;
     std::vector<FaceRun> runs;
-    std::vector<std::int8_t> weights;
 };
 
 /// What is the same for all pairs of a frame.
@@ -167,6 +166,7 @@ struct FrameTerms {
     FarVertices far_vertices = FarVertices::AtInfinity;
     const SilhouetteStrategy* strategy = nullptr;  ///< null: "auto"
     std::uint64_t frame = 0;
+    CapOptions caps = {};
 };
 
 /// A pair that may have changed, and what came of it.

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "internal/volume_draws.hpp"
+
+#include <algorithm>
+#include <span>
+#include <tuple>
+
+namespace gnomon::shadow_pass::internal {
+
+namespace {
+
+using shadows::FarCopies;
+
+class Runs {
+public:
+    explicit Runs(const shadows::Volume& volume) : volume_(volume) {}
+
+    void add(const shadows::IndexRange& range) {
+        if (range.count > 0) runs_.push_back({.first = range.first, .count = range.count});
+    }
+    void add_near_caps(const shadows::CapList& list, bool exchanged, Role role) {
+        add_triples(list, 0, exchanged, role);
+        add_ranges(list, 0, exchanged, role);
+    }
+    void add_far_caps(const shadows::CapList& list, bool exchanged) {
+        if (volume_.far_copies == FarCopies::OfAll) add_triples(list, 1, exchanged, Role::Volume);
+        if (volume_.far_copies != FarCopies::None) add_ranges(list, 1, exchanged, Role::Volume);
+    }
+
+    [[nodiscard]] std::vector<Run> finish() {
+        const auto state_of = [](const Run& r) {
+            return std::tie(r.exchanged, r.role, r.of_mesh, r.base_vertex);
+        };
+        std::stable_sort(runs_.begin(), runs_.end(),
+                         [&](const Run& a, const Run& b) { return state_of(a) < state_of(b); });
+        std::vector<Run> joined;
+        for (const Run& run : runs_) {
+            const bool goes_on = !joined.empty() &&
+                                 joined.back().first + joined.back().count == run.first &&
+                                 state_of(joined.back()) == state_of(run);
+            if (goes_on) {
+                joined.back().count += run.count;
+            } else {
+                joined.push_back(run);
+            }
+        }
+        return joined;
+    }
+
+private:
+    void add_triples(const shadows::CapList& list, std::int32_t base_vertex, bool exchanged,
+                     Role role) {
+        const shadows::IndexRange& range = list.triples;
+        if (range.count == 0) return;
+        runs_.push_back({range.first, range.count, base_vertex, exchanged, false, role});
+    }
+    void add_ranges(const shadows::CapList& list, std::int32_t base_vertex, bool exchanged,
+                    Role role) {
+        for (const shadows::FaceRange& range :
+             std::span(volume_.ranges).subspan(list.ranges.first, list.ranges.count)) {
+            runs_.push_back({3 * range.first, 3 * range.count, base_vertex, exchanged, true, role});
+        }
+    }
+
+    const shadows::Volume& volume_;
+    std::vector<Run> runs_;
+};
+
+}  // namespace
+
+std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& desc) {
+    const shadows::Volume& volume = *draw.volume;
+    const bool near = draw.technique == shadows::Technique::DepthFail || draw.near_caps;
+    // A far cap at infinity is never in front of anything; a finite one closes the volume for
+    // depth-pass as well.
+    const bool far =
+        draw.technique == shadows::Technique::DepthFail || draw.extrusion.offset.w != 0.0F;
+    const bool open = desc.averted_faces == AvertedFaces::LeftToShading;
+    const Role cap = desc.cap_bias.none() ? Role::Volume : Role::Cap;
+    Runs runs(volume);
+    if (far) runs.add(volume.far_cap);
+    runs.add(volume.sides);
+    if (near) {
+        runs.add_near_caps(volume.near_cap, false, cap);
+        runs.add_near_caps(volume.near_cap_flipped, true, cap);
+    }
+    // In front of the surface that they lie on, open caps count in depth-pass as well.
+    if (near || open) runs.add_near_caps(volume.near_cap_averted, true, open ? Role::OpenCap : cap);
+    if (far) {
+        runs.add_far_caps(volume.near_cap, true);
+        runs.add_far_caps(volume.near_cap_flipped, false);
+        runs.add_far_caps(volume.near_cap_averted, false);
+    }
+    return runs.finish();
+}
+
+std::vector<Run> near_caps_of(const shadows::Volume& volume) {
+    Runs runs(volume);
+    for (const shadows::CapList& list : volume.near_caps()) {
+        runs.add_near_caps(list, false, Role::Volume);
+    }
+    return runs.finish();
+}
+
+}  // namespace gnomon::shadow_pass::internal
