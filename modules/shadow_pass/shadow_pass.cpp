@@ -121,6 +121,9 @@ struct ShadowPass::State {
     };
     struct VolumeRun {
         internal::IndexRun run;
+        // What is there: [begin, end) of Volume::indices.
+        std::uint32_t begin = 0;
+        std::uint32_t end = 0;
         std::uint64_t used = 0;
     };
     std::unordered_map<std::uint64_t, MeshVertices> meshes;  // by ShadowMesh::id
@@ -136,7 +139,7 @@ struct ShadowPass::State {
 
     struct Recorded {
         gpu::BufferId vertices;
-        internal::IndexRun run;
+        VolumeRun indices;
         internal::IndexRun mesh_caps;  // where a run is of them
         bool exchanged = false;
         bool unclipped = false;
@@ -159,7 +162,7 @@ struct ShadowPass::State {
     Status write_uniforms(const shadows::DrawList& list, const shadows::View& view);
     Result<gpu::BufferId> vertices_of(const shadows::ShadowMesh& mesh);
     Result<gpu::BufferId> extruded_vertices_of(std::size_t index, const shadows::VolumeDraw& draw);
-    Result<internal::IndexRun> indices_of(const shadows::VolumeDraw& draw);
+    Result<VolumeRun> indices_of(const shadows::VolumeDraw& draw, std::span<const Run> runs);
     void free_unused();
     // `bound`: the chunk of indices that is, if any.
     void draw(gpu::RenderPassEncoder& encoder, const Recorded& volume, const Run& run,
@@ -335,18 +338,37 @@ Result<gpu::BufferId> ShadowPass::State::extruded_vertices_of(std::size_t index,
     return extruded[index].id();
 }
 
-Result<internal::IndexRun> ShadowPass::State::indices_of(const shadows::VolumeDraw& draw) {
-    const auto found = volumes.find(draw.revision);
-    if (found != volumes.end()) {
-        found->second.used = generation;
-        return found->second.run;
+// Where draws need `volume` alone, the span of its indices that they take; where a debug view may
+// come, all of them.
+Result<ShadowPass::State::VolumeRun> ShadowPass::State::indices_of(const shadows::VolumeDraw& draw,
+                                                                   std::span<const Run> runs) {
+    const bool all = desc.silhouette_lines || desc.cap_parts;
+    auto begin = static_cast<std::uint32_t>(all ? 0 : draw.volume->indices.size());
+    auto end = static_cast<std::uint32_t>(all ? draw.volume->indices.size() : 0);
+    for (const Run& run : runs) {
+        if (run.of_mesh) continue;
+        begin = std::min(begin, run.first);
+        end = std::max(end, run.first + run.count);
     }
-    auto run = desc.silhouette_lines ? indices.upload(with_silhouette_lines(*draw.volume))
-                                     : indices.upload(draw.volume->indices);
-    if (!run) return run;
+    if (const auto found = volumes.find(draw.revision); found != volumes.end()) {
+        VolumeRun& known = found->second;
+        if (begin >= end || (known.begin <= begin && end <= known.end)) {
+            known.used = generation;
+            return known;
+        }
+        // Another technique than before wants more.
+        begin = std::min(begin, known.begin);
+        end = std::max(end, known.end);
+        indices.free(known.run);
+        volumes.erase(found);
+    }
+    begin = std::min(begin, end);
+    auto run = desc.silhouette_lines
+                   ? indices.upload(with_silhouette_lines(*draw.volume))
+                   : indices.upload(std::span(draw.volume->indices).subspan(begin, end - begin));
+    if (!run) return forward_error(run);
     stats.uploaded_bytes += std::uint64_t{run->count} * sizeof(std::uint32_t);
-    volumes.emplace(draw.revision, VolumeRun{*run, generation});
-    return run;
+    return volumes.emplace(draw.revision, VolumeRun{*run, begin, end, generation}).first->second;
 }
 
 void ShadowPass::State::free_unused() {
@@ -429,9 +451,9 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         auto vertices = s.desc.extrusion == ExtrusionPath::Cpu ? s.extruded_vertices_of(i, draw)
                                                                : s.vertices_of(*draw.mesh);
         if (!vertices) return forward_error(vertices);
-        auto run = s.indices_of(draw);
-        if (!run) return forward_error(run);
         auto runs = internal::runs_of(draw, s.desc);
+        auto indices = s.indices_of(draw, runs);
+        if (!indices) return forward_error(indices);
         internal::IndexRun mesh_caps;
         const bool needs_mesh_caps =
             (s.desc.cap_parts && !draw.volume->ranges.empty()) ||
@@ -441,8 +463,8 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
             if (!got) return forward_error(got);
             mesh_caps = *got;
         }
-        s.recorded.push_back({*vertices, *run, mesh_caps, draw.mirrored, unclipped, draw.technique,
-                              std::move(runs), draw.batch, draw.volume});
+        s.recorded.push_back({*vertices, *indices, mesh_caps, draw.mirrored, unclipped,
+                              draw.technique, std::move(runs), draw.batch, draw.volume});
         s.stats.draw_calls += s.recorded.back().runs.size();
     }
     if (const Status written = s.write_uniforms(list, view); !written) return written;
@@ -454,12 +476,13 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
 
 void ShadowPass::State::draw(gpu::RenderPassEncoder& encoder, const Recorded& volume,
                              const Run& run, std::optional<std::uint32_t>& bound) const {
-    const internal::IndexRun& where = run.of_mesh ? volume.mesh_caps : volume.run;
+    const internal::IndexRun& where = run.of_mesh ? volume.mesh_caps : volume.indices.run;
+    const std::uint32_t first = run.of_mesh ? run.first : run.first - volume.indices.begin;
     if (bound != where.chunk) {
         encoder.set_index_buffer(indices.buffer(where.chunk), gpu::IndexFormat::Uint32);
         bound = where.chunk;
     }
-    encoder.draw_indexed(run.count, 1, where.first + run.first, run.base_vertex);
+    encoder.draw_indexed(run.count, 1, where.first + first, run.base_vertex);
 }
 
 void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) const {
@@ -517,7 +540,7 @@ void ShadowPass::record_part(gpu::RenderPassEncoder& encoder, std::size_t light,
         }
         if (part == Part::Silhouettes) {
             const auto lines = static_cast<std::uint32_t>(volume.indices.size());
-            draw(lines, recorded.run.count - lines);
+            draw(lines, recorded.indices.run.count - lines);
         }
     }
 }

@@ -129,7 +129,41 @@ TEST(ShadowPass, uploads_the_indices_of_what_turned) {
     const shadows::DrawList list = world.frame(view);
     ASSERT_EQ(list.stats.pairs_redetected, 1U);
     ASSERT_TRUE(pass.prepare(list, view));
-    EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U + list.draws[0].volume->indices.size() * 4);
+    ASSERT_EQ(list.draws[0].technique, shadows::Technique::DepthPass);
+    EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U + list.draws[0].volume->sides.count * 4);
+}
+
+TEST(ShadowPass, uploads_caps_when_they_are_drawn_first) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world;
+    shadows::View view = perspective_view();
+    ASSERT_TRUE(pass.prepare(world.frame(view), view));
+    const std::uint64_t sides = pass.stats().index_bytes_held;
+    // The eye goes into the volumes and out again.
+    const shadows::View within = [&] {
+        shadows::View v = view;
+        v.view_from_world = shadows::look_at({-1, -3, -0.2}, {2, 0, 0}, {0, 1, 0});
+        return v;
+    }();
+    const shadows::DrawList list = world.frame(within);
+    std::uint64_t all = 0;
+    std::uint64_t anew = 0;
+    for (const shadows::VolumeDraw& draw : list.draws) {
+        const bool fail = draw.technique == shadows::Technique::DepthFail;
+        all += 4 * (fail ? draw.volume->indices.size() : draw.volume->sides.count);
+        anew += fail ? 4 * draw.volume->indices.size() : 0;
+    }
+    ASSERT_GT(list.stats.zfail_pairs, 0U);
+    ASSERT_EQ(list.stats.pairs_redetected, 0U);
+    ASSERT_TRUE(pass.prepare(list, within));
+    EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U + anew);
+    EXPECT_EQ(pass.stats().index_bytes_held, all);
+    EXPECT_GT(all, sides);
+    for (const shadows::View& now : {view, within}) {
+        ASSERT_TRUE(pass.prepare(world.frame(now), now));
+        EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U) << "what is there stays there";
+    }
 }
 
 TEST(ShadowPass, frees_the_indices_of_what_is_gone) {
