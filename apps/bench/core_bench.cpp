@@ -66,18 +66,21 @@ void silhouette_brute_force(benchmark::State& state) {
     per_triangle(state, *mesh);
 }
 
-void volume(benchmark::State& state) {
+void volume(benchmark::State& state, const shadows::CapOptions& caps) {
     const auto mesh = torus_knot(state.range(0));
     shadows::Facing facing;
     shadows::classify_faces(*mesh, light_at(1), facing);
     std::vector<shadows::SilhouetteEdge> silhouette;
     shadows::find_silhouette(*mesh, facing.weights, silhouette);
+    std::vector<shadows::FaceRun> casting;
+    shadows::runs_of(facing.weights, casting);
     shadows::Volume result;
     for (auto _ : state) {
-        shadows::build_volume(*mesh, facing.weights, silhouette, false,
-                              shadows::FarVertices::AtInfinity, result);
+        shadows::build_volume(*mesh, casting, silhouette, {.caps = caps}, result);
         benchmark::DoNotOptimize(result.indices.data());
     }
+    state.counters["index bytes"] = 4.0 * static_cast<double>(result.indices.size());
+    state.counters["ranges"] = static_cast<double>(result.ranges.size());
     per_triangle(state, *mesh);
 }
 
@@ -115,7 +118,14 @@ BENCHMARK(silhouette_brute_force)
     ->Range(1000, 1000000)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK(layer_bound)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(volume)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(volume, written_out, shadows::CapOptions::plain())
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(volume, ranges, shadows::CapOptions{})
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace gnomon::bench
