@@ -227,8 +227,8 @@ SystemMemory ShadowSystem::memory() const {
                      s.chunks.capacity() * sizeof(std::size_t) +
                      s.detectors.capacity() * sizeof(s.detectors[0]);
     for (const auto& scratch : s.scratches) {
-        memory.scratch +=
-            sizeof *scratch + scratch->facing.weights.capacity() + scratch->weights.capacity();
+        memory.scratch += sizeof *scratch + scratch->facing.weights.capacity() +
+                          scratch->runs.capacity() * sizeof(FaceRun);
         for (const auto& [strategy, detector] : scratch->detectors) {
             memory.scratch += detector->memory_bytes();
         }

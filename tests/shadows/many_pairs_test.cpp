@@ -11,6 +11,8 @@
 #include <map>
 #include <new>
 #include <numeric>
+#include <set>
+#include <span>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -45,12 +47,26 @@ std::string described(const VolumeDraw& draw) {
     put(draw.caster);
     put(draw.mesh->id());
     const Volume& volume = *draw.volume;
-    for (const std::uint32_t index : volume.indices) put(index);
-    for (const IndexRange& range : {volume.sides, volume.near_cap, volume.far_cap,
-                                    volume.near_cap_flipped, volume.near_cap_averted}) {
-        put(range.first);
-        put(range.count);
+    // Strategies that remember find the same silhouette in another order.
+    const std::span indices(volume.indices);
+    const std::size_t side = volume.made_with.one_far_point() ? 3 : 6;
+    std::multiset<std::vector<std::uint32_t>> sides;
+    for (std::size_t i = 0; i < volume.sides.count; i += side) {
+        const auto one = indices.subspan(volume.sides.first + i, side);
+        sides.emplace(one.begin(), one.end());
     }
+    for (const auto& one : sides) {
+        for (const std::uint32_t index : one) put(index);
+    }
+    for (const CapList& list : volume.near_caps()) {
+        for (const std::uint32_t index : indices.subspan(list.triples.first, list.triples.count)) {
+            put(index);
+        }
+        put(list);
+    }
+    for (const FaceRange& range : volume.ranges) put(range);
+    put(volume.far_cap.count);
+    put(volume.far_copies);
     put(volume.silhouette_edges);
     put(draw.world_from_local);
     put(draw.world_from_far);
@@ -286,7 +302,8 @@ TEST_P(ManyPairs, SayWhyEachIsWhatItIsAndWhetherTheListIsAnother) {
                 const bool kept = known[{draw.light, draw.caster}] == draw.volume;
                 const bool says_kept =
                     draw.reason == Reason::Unchanged || draw.reason == Reason::WithinMargin;
-                ASSERT_EQ(kept, says_kept) << to_string(draw.reason);
+                // A detector may find that nothing changed though the light moved on.
+                ASSERT_TRUE(kept || !says_kept) << to_string(draw.reason);
             }
             if (std::pair(draw.light, draw.caster) != last) {
                 ++reasons[static_cast<std::size_t>(draw.reason)];
