@@ -124,6 +124,17 @@ std::span<const SilhouetteStrategy> silhouette_strategies() {
          false, internal::dual_bvh_detector},
         {"certificates", "looks at a face again when the light has travelled its margin", true,
          internal::certificates_detector},
+        {"edge_stack",
+         "edges of casting faces cancel in a hash table (Kwoon's triangular algorithm)", false,
+         internal::edge_stack_detector},
+        {"edge_stack_naive", "the same with a search through the stack: quadratic, for comparison",
+         false, internal::edge_stack_naive_detector},
+        {"vnv", "edges between visible and non-visible polygons; none within a flat polygon", true,
+         internal::vnv_detector},
+        {"edge_list", "one pass over an edge list made in two (Lengyel)", true,
+         internal::edge_list_detector},
+        {"hextree", "a tree of 16 children a node over edges between dual planes, four deep", true,
+         internal::hextree_detector},
     });
     return strategies;
 }

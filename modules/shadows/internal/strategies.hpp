@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One function a strategy, each at home in strategies/<name>.cpp.
+// One function a strategy, each at home in strategies/<name>.cpp; edge_stack.cpp has both of its.
 #pragma once
 
 #include <memory>
@@ -14,6 +14,11 @@ namespace gnomon::shadows::internal {
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> dual_bvh_detector();
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> certificates_detector();
 [[nodiscard]] std::unique_ptr<SilhouetteDetector> automatic_detector();
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> edge_stack_detector();
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> edge_stack_naive_detector();
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> vnv_detector();
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> edge_list_detector();
+[[nodiscard]] std::unique_ptr<SilhouetteDetector> hextree_detector();
 
 /// What "auto" does about a light that went far, before it knows anything of the mesh but its size.
 [[nodiscard]] Choice choose_for_jump(const ShadowMesh& mesh);
