@@ -53,8 +53,14 @@ soak: build/build.ninja build/asan-full/build.ninja build/tsan/build.ninja ## th
 	@ctest --preset tsan -j$(JOBS)
 	@JOBS=$(JOBS) scripts/fuzz 720
 
-bench: build ## run the benchmarks; their results also go to build/bench.json
-	@build/bin/gnomon-bench --benchmark_out=build/bench.json --benchmark_out_format=json
+# How long the strategies are compared; all the rest takes some minutes more.
+BENCH_SECONDS ?= 300
+
+bench: build ## run the benchmarks, and write bench/results/*.json and the tables of docs/performance.md
+	@build/bin/gnomon-bench --paired --seconds $(BENCH_SECONDS) --out bench/results/strategies.json
+	@build/bin/gnomon-bench --benchmark_min_time=0.05 --benchmark_out=build/bench.json --benchmark_out_format=json
+	@scripts/performance-tables bench/results/strategies.json --micro build/bench.json \
+		--micro-out bench/results/functions.json --document docs/performance.md
 
 docs: ## the reference of all public headers and the guides, in build/docs/html
 	@scripts/setup --docs
