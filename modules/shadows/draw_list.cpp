@@ -300,21 +300,23 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
         place_far_vertices(draw, pair, light, infinite, reach);
         differs = true;
     }
-    const Technique technique = options.force_technique               ? *options.force_technique
-                                : clip.is_clear_of(bounds_of(caster)) ? Technique::DepthPass
-                                                                      : Technique::DepthFail;
+    const auto choose = [&] {
+        const bool valid = clip.is_clear_of_sphere(caster.center, caster.radius) ||
+                           clip.is_clear_of(bounds_of(caster));
+        return valid ? Technique::DepthPass : Technique::DepthFail;
+    };
+    const Technique technique = options.force_technique ? *options.force_technique : choose();
     differs = differs || technique != draw.technique;
-    draw.technique = technique;
+    draw.technique = origin.technique = technique;
     return differs;
 }
 
 void ShadowSystem::State::count_draws() {
     FrameStats& stats = list.stats;
-    for (std::size_t i = 0; i < origins.size(); ++i) {
-        stats.silhouette_edges += origins[i].silhouette_edges;
-        if (!origins[i].first) continue;
-        const bool passes = list.draws[i].technique == Technique::DepthPass;
-        ++(passes ? stats.zpass_pairs : stats.zfail_pairs);
+    for (const DrawOrigin& origin : origins) {
+        stats.silhouette_edges += origin.silhouette_edges;
+        if (!origin.first) continue;
+        ++(origin.technique == Technique::DepthPass ? stats.zpass_pairs : stats.zfail_pairs);
     }
     for (const std::uint32_t l : listed) {
         const LightState& light = lights[l];

@@ -100,6 +100,17 @@ NearClip::Side NearClip::extent_along(const glm::dvec3& unit) const {
             along > tiny ? std::numeric_limits<double>::infinity() : hull.high};
 }
 
+bool NearClip::is_clear_of_sphere(const glm::dvec3& center, double radius) const {
+    const glm::dvec3 c = center - eye_;
+    const double rounding = 1e-14 * (glm::length(center) + glm::length(eye_));
+    const double reach = radius * (1.0 + 1e-9) + rounding + 1e-6 * (glm::length(c) + radius);
+    if (!finite_ || !std::isfinite(reach)) return false;
+    return std::any_of(sides_.begin(), sides_.begin() + side_count_, [&](const Side& side) {
+        const double along = glm::dot(c, side.normal);
+        return side.low > along + reach || along - reach > side.high;
+    });
+}
+
 bool NearClip::is_clear_of(const OrientedBounds& bounds) const {
     std::array<glm::dvec3, 8> box = corners_of(bounds);
     double reach = 0.0;

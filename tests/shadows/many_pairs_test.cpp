@@ -367,7 +367,7 @@ std::vector<std::size_t> order_of_revisions(const DrawList& list) {
 TEST(Threads, GiveTheSameListBitForBit) {
     GNOMON_RANDOM(random);
     World world(random);
-    for (std::uint64_t key = 100; key < 700; ++key) world.put_caster(random, key);
+    for (std::uint64_t key = 100; key < 400; ++key) world.put_caster(random, key);
     std::vector<ShadowSystem> systems;
     for (const unsigned threads : {1U, 2U, 8U}) {
         systems.push_back(*ShadowSystem::create({.jobs = thread_jobs(threads)}));

@@ -21,6 +21,9 @@ public:
     /// depth_pass_is_valid(). Cost: some hundred flops, and some thousand where nothing separates
     /// the two.
     [[nodiscard]] bool is_clear_of(const OrientedBounds& bounds) const;
+    /// The same for all that a sphere in the world may hold; true for most that are not near the
+    /// volume. Cost: some dozen flops.
+    [[nodiscard]] bool is_clear_of_sphere(const glm::dvec3& center, double radius) const;
 
 private:
     // What the volume takes of an axis.

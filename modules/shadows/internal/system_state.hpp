@@ -25,8 +25,9 @@ namespace gnomon::shadows {
 struct DrawOrigin {
     enum class Fill : std::uint8_t { Not, View, All };  ///< what of the draw is to be written
     std::uint32_t caster = 0;                           ///< its slot
-    std::uint32_t silhouette_edges = 0;  ///< of the pair; 0 for other parts than the first
-    bool first = true;                   ///< of its pair's draws
+    std::uint32_t silhouette_edges = 0;          ///< of the pair; 0 for other parts than the first
+    bool first = true;                           ///< of its pair's draws
+    Technique technique = Technique::DepthFail;  ///< the draw's
     Fill fill = Fill::Not;
 };
 
