@@ -147,6 +147,7 @@ struct ShadowPass::State {
         std::vector<Run> runs;
         std::uint32_t batch = 0;
         std::shared_ptr<const shadows::Volume> volume;
+        std::vector<Run> near_caps;  // for Part::Caps, where it may be asked for
     };
     std::vector<Recorded> recorded;
     std::vector<shadows::LightDraws> lights;
@@ -464,7 +465,9 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
             mesh_caps = *got;
         }
         s.recorded.push_back({*vertices, *indices, mesh_caps, draw.mirrored, unclipped,
-                              draw.technique, std::move(runs), draw.batch, draw.volume});
+                              draw.technique, std::move(runs), draw.batch, draw.volume,
+                              s.desc.cap_parts ? internal::near_caps_of(*draw.mesh, *draw.volume)
+                                               : std::vector<Run>{}});
         s.stats.draw_calls += s.recorded.back().runs.size();
     }
     if (const Status written = s.write_uniforms(list, view); !written) return written;
@@ -534,9 +537,7 @@ void ShadowPass::record_part(gpu::RenderPassEncoder& encoder, std::size_t light,
         };
         if (part == Part::Sides) draw(volume.sides.first, volume.sides.count);
         if (part == Part::Caps) {
-            for (const Run& run : internal::near_caps_of(volume)) {
-                s.draw(encoder, recorded, run, indices);
-            }
+            for (const Run& run : recorded.near_caps) s.draw(encoder, recorded, run, indices);
         }
         if (part == Part::Silhouettes) {
             const auto lines = static_cast<std::uint32_t>(volume.indices.size());

@@ -77,7 +77,7 @@ struct ShadowPassDesc {
     ExtrusionPath extrusion = ExtrusionPath::VertexShader;
     bool silhouette_lines =
         false;               ///< also uploads silhouette edges as lines, for Part::Silhouettes
-    bool cap_parts = false;  ///< also keeps caps that no light draws at hand, for Part::Caps
+    bool cap_parts = false;  ///< also keeps all caps at hand, for Part::Caps
     AvertedFaces averted_faces = AvertedFaces::Shadowed;
     CapBias cap_bias = {};  ///< both values >= 0; none where depth comes from the shared function
 };
@@ -85,7 +85,7 @@ struct ShadowPassDesc {
 /// What a debug view may draw of a volume.
 enum class Part : std::uint8_t {
     Sides,        ///< triangles
-    Caps,         ///< near caps, triangles
+    Caps,         ///< near caps, triangles; needs ShadowPassDesc::cap_parts
     Silhouettes,  ///< lines
 };
 

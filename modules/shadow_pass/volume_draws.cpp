@@ -19,11 +19,15 @@ public:
         if (range.count > 0) runs_.push_back({.first = range.first, .count = range.count});
     }
     void add_near_caps(const shadows::CapList& list, bool exchanged, Role role) {
-        add_triples(list, 0, exchanged, role);
+        add_triples(list.triples, 0, exchanged, role);
         add_ranges(list, 0, exchanged, role);
+        add_triples(list.undone, 0, !exchanged, role);
     }
     void add_far_caps(const shadows::CapList& list, bool exchanged) {
-        if (volume_.far_copies == FarCopies::OfAll) add_triples(list, 1, exchanged, Role::Volume);
+        if (volume_.far_copies == FarCopies::OfAll) {
+            add_triples(list.triples, 1, exchanged, Role::Volume);
+            add_triples(list.undone, 1, !exchanged, Role::Volume);
+        }
         if (volume_.far_copies != FarCopies::None) add_ranges(list, 1, exchanged, Role::Volume);
     }
 
@@ -48,9 +52,8 @@ public:
     }
 
 private:
-    void add_triples(const shadows::CapList& list, std::int32_t base_vertex, bool exchanged,
+    void add_triples(const shadows::IndexRange& range, std::int32_t base_vertex, bool exchanged,
                      Role role) {
-        const shadows::IndexRange& range = list.triples;
         if (range.count == 0) return;
         runs_.push_back({range.first, range.count, base_vertex, exchanged, false, role});
     }
@@ -94,12 +97,23 @@ std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& 
     return runs.finish();
 }
 
-std::vector<Run> near_caps_of(const shadows::Volume& volume) {
-    Runs runs(volume);
+std::vector<Run> near_caps_of(const shadows::ShadowMesh& mesh, const shadows::Volume& volume) {
+    std::vector<Run> runs;
     for (const shadows::CapList& list : volume.near_caps()) {
-        runs.add_near_caps(list, false, Role::Volume);
+        if (list.triples.count > 0) runs.push_back({list.triples.first, list.triples.count});
+        shadows::for_each_face_of_ranges(
+            mesh, std::span(volume.ranges).subspan(list.ranges.first, list.ranges.count),
+            std::span(volume.indices).subspan(list.undone.first, list.undone.count),
+            [&](std::uint32_t f) {
+                if (!runs.empty() && runs.back().of_mesh &&
+                    runs.back().first + runs.back().count == 3 * f) {
+                    runs.back().count += 3;
+                } else {
+                    runs.push_back({.first = 3 * f, .count = 3, .of_mesh = true});
+                }
+            });
     }
-    return runs.finish();
+    return runs;
 }
 
 }  // namespace gnomon::shadow_pass::internal

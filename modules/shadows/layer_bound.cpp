@@ -184,7 +184,11 @@ CornerLayers layers_at_corners(const Placement& placement, const internal::Casti
         layers.high += (left && forwards) || (right && backwards) ? 1 : 0;
         layers.low += (right && forwards) || (left && backwards) ? 1 : 0;
     };
-    for_each_face(placement.mesh, casting.triples, casting.ranges, add);
+    for (std::size_t i = 0; i < casting.triples.size(); i += 3) {
+        add({casting.triples[i] / 2, casting.triples[i + 1] / 2, casting.triples[i + 2] / 2});
+    }
+    for_each_face_of_ranges(placement.mesh, casting.ranges, casting.undone,
+                            [&](std::uint32_t f) { add(placement.mesh.faces()[f]); });
     return layers;
 }
 
@@ -326,9 +330,13 @@ std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume, const La
             boundary.push_back(edge);
         }
     }
-    // The triples of all near caps follow each other, and nothing follows them.
-    const auto triples = std::span(volume.indices).subspan(volume.near_cap.triples.first);
-    return internal::bound_layers(mesh, {triples, volume.ranges}, boundary, space);
+    // The triples of all near caps follow each other, then what is undone, and nothing more.
+    const std::span<const std::uint32_t> indices(volume.indices);
+    const std::uint32_t first = volume.near_cap.triples.first;
+    const std::uint32_t undone = volume.near_cap.undone.first;
+    return internal::bound_layers(
+        mesh, {indices.subspan(first, undone - first), volume.ranges, indices.subspan(undone)},
+        boundary, space);
 }
 
 }  // namespace gnomon::shadows

@@ -37,13 +37,13 @@ Source source_of(const ShadowMesh& mesh, const Volume& volume) {
             source.weights[f] = static_cast<std::int8_t>(source.weights[f] + weight);
             visit(f);
         }
-        for (std::uint32_t i = 0; i < list.ranges.count; ++i) {
-            const FaceRange& range = volume.ranges[list.ranges.first + i];
-            for (f = range.first; f < range.first + range.count; ++f) {
-                source.weights[f] = static_cast<std::int8_t>(source.weights[f] + weight);
-                visit(f);
-            }
-        }
+        for_each_face_of_ranges(
+            mesh, std::span(volume.ranges).subspan(list.ranges.first, list.ranges.count),
+            std::span(volume.indices).subspan(list.undone.first, list.undone.count),
+            [&](std::uint32_t face) {
+                source.weights[face] = static_cast<std::int8_t>(source.weights[face] + weight);
+                visit(face);
+            });
     };
     add(volume.near_cap, 1, [](std::size_t) {});
     add(volume.near_cap_flipped, -1, [](std::size_t) {});

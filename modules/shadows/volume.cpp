@@ -43,105 +43,195 @@ private:
 // ---------------------------------------------------------------------------------------------
 // Which faces are which kind of cap, and which of them are ranges
 
-enum Kind : std::uint8_t { Near, Flipped, Averted };
+enum Kind : std::uint8_t { Near, Flipped, Averted, None };
+using Kinds = std::array<std::uint64_t, 3>;
 
-// A run, or the part of one whose faces are of one kind.
+// A run, or the part of one whose faces are of one kind, or faces between runs, that do not cast.
 struct Segment {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    std::int32_t weight = 0;
-    Kind kind = Near;
+    std::uint32_t weight = 0;  // without its sign
+    Kind kind = None;
 };
 
-bool is_longer(const Segment& a, const Segment& b) {
-    return a.count != b.count ? a.count > b.count : a.first < b.first;
+// All of the mesh, segment by segment. Calls visit(const Segment&).
+template <class Visit>
+void for_each_segment(const ShadowMesh& mesh, std::span<const FaceRun> casting,
+                      std::span<const std::uint8_t> solid_averted, Visit&& visit) {
+    const auto is_set = [](std::uint8_t averted) { return averted != 0; };
+    const bool any = std::any_of(solid_averted.begin(), solid_averted.end(), is_set);
+    const bool all = any && std::all_of(solid_averted.begin(), solid_averted.end(), is_set);
+    const auto components = mesh.face_components();
+    std::uint32_t at = 0;
+    for (const FaceRun& run : casting) {
+        if (run.first > at) visit(Segment{at, run.first - at, 0, None});
+        at = run.first + run.count;
+        const auto weight = static_cast<std::uint32_t>(std::abs(run.weight));
+        if (run.weight > 0 || !any || all) {
+            visit(Segment{run.first, run.count, weight,
+                          run.weight > 0 ? Near
+                          : all          ? Averted
+                                         : Flipped});
+            continue;
+        }
+        for (std::uint32_t first = run.first; first < at;) {
+            const bool averted = is_set(solid_averted[components[first]]);
+            std::uint32_t last = first + 1;
+            while (last < at && is_set(solid_averted[components[last]]) == averted) ++last;
+            visit(Segment{first, last - first, weight, averted ? Averted : Flipped});
+            first = last;
+        }
+    }
 }
 
-class Caps {
+// What a segment costs, in faces that are written out, within a range of some kind.
+std::uint64_t written_within(const Segment& s, Kind range) {
+    if (range == None || range != s.kind) {
+        const std::uint64_t own = std::uint64_t{s.count} * s.weight;
+        return range == None ? own : own + s.count;  // undone
+    }
+    return std::uint64_t{s.count} * (s.weight - 1);
+}
+
+// Ranges so that faces written out and `worth` for each range are as little as they can be: the
+// shortest way through the mesh's order, segment by segment, where each is within a range of a kind
+// or in none. After A. J. Viterbi (1967).
+class Ranges {
 public:
-    Caps(const ShadowMesh& mesh, std::span<const FaceRun> casting,
-         std::span<const std::uint8_t> solid_averted, const CapOptions& options)
-        : mesh_(mesh), casting_(casting), solid_averted_(solid_averted), options_(options) {
-        const auto is_set = [](std::uint8_t averted) { return averted != 0; };
-        any_averted_ = std::any_of(solid_averted.begin(), solid_averted.end(), is_set);
-        all_averted_ =
-            any_averted_ && std::all_of(solid_averted.begin(), solid_averted.end(), is_set);
-        choose_ranges();
+    Ranges(std::span<const Segment> segments, std::uint64_t worth) {
+        constexpr std::size_t states = 4;
+        std::array<std::uint64_t, states> cost{worth, worth, worth, 0};
+        std::vector<std::uint8_t> came(segments.size());  // two bits a state
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+            const auto cheapest =
+                static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+            std::array<std::uint64_t, states> next{};
+            for (std::size_t state = 0; state < states; ++state) {
+                // The last of equals, so that a range is not begun for nothing.
+                const std::uint64_t begun = cost[cheapest] + (state == None ? 0 : worth);
+                const bool stays = i == 0 || cost[state] <= begun;
+                next[state] = (stays ? cost[state] : begun) +
+                              written_within(segments[i], static_cast<Kind>(state));
+                came[i] =
+                    static_cast<std::uint8_t>(came[i] | (stays ? state : cheapest) << (2 * state));
+            }
+            cost = next;
+        }
+        kinds_.resize(segments.size());
+        auto state = static_cast<std::size_t>(std::min_element(cost.rbegin(), cost.rend()).base() -
+                                              cost.begin() - 1);
+        for (std::size_t i = segments.size(); i-- > 0;) {
+            kinds_[i] = static_cast<Kind>(state);
+            state = came[i] >> (2 * state) & 3U;
+        }
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+            if (kinds_[i] == None) continue;
+            if (i == 0 || kinds_[i - 1] != kinds_[i]) stretches_.push_back({i, i, 0});
+            Stretch& stretch = stretches_.back();
+            stretch.end = i + 1;
+            stretch.saved += static_cast<std::int64_t>(written_within(segments[i], None)) -
+                             static_cast<std::int64_t>(written_within(segments[i], kinds_[i]));
+        }
     }
 
-    // Faces of a kind that are written out, each as often as it casts, and in all.
-    [[nodiscard]] std::uint64_t written(Kind kind) const { return written_[kind]; }
-    [[nodiscard]] std::uint64_t faces(Kind kind) const { return faces_[kind]; }
-    [[nodiscard]] std::span<const Segment> ranges() const { return ranges_; }
-
-    // Segments that are written out, in the mesh's order.
-    template <class Visit>
-    void for_each_written(Visit&& visit) const {
-        for_each([&](const Segment& s) {
-            if (!is_range(s)) visit(s);
-        });
+    [[nodiscard]] Kind kind(std::size_t segment) const { return kinds_[segment]; }
+    [[nodiscard]] std::size_t count() const { return stretches_.size(); }
+    /// How many faces fewer are written out than without ranges.
+    [[nodiscard]] std::int64_t saved() const {
+        std::int64_t sum = 0;
+        for (const Stretch& stretch : stretches_) sum += stretch.saved;
+        return sum;
+    }
+    /// The `most` ranges that save most.
+    void keep_best(std::size_t most) {
+        if (count() <= most) return;
+        const auto end = stretches_.begin() + static_cast<std::ptrdiff_t>(most);
+        std::nth_element(stretches_.begin(), end, stretches_.end(),
+                         [](const Stretch& x, const Stretch& y) {
+                             return x.saved != y.saved ? x.saved > y.saved : x.begin < y.begin;
+                         });
+        for (auto dropped = end; dropped != stretches_.end(); ++dropped) {
+            for (std::size_t i = dropped->begin; i < dropped->end; ++i) kinds_[i] = None;
+        }
+        stretches_.erase(end, stretches_.end());
     }
 
 private:
-    [[nodiscard]] bool is_long(const Segment& s) const {
-        return std::abs(s.weight) == 1 && s.count >= options_.draw_worth_faces;
-    }
-    [[nodiscard]] bool is_range(const Segment& s) const {
-        return is_long(s) && !ranges_.empty() && !is_longer(shortest_, s);
-    }
-
-    template <class Visit>
-    void for_each(Visit&& visit) const {
-        const auto components = mesh_.face_components();
-        for (const FaceRun& run : casting_) {
-            if (run.weight > 0 || !any_averted_ || all_averted_) {
-                const Kind kind = run.weight > 0 ? Near : all_averted_ ? Averted : Flipped;
-                visit(Segment{run.first, run.count, run.weight, kind});
-                continue;
-            }
-            const std::uint32_t end = run.first + run.count;
-            for (std::uint32_t first = run.first; first < end;) {
-                const bool averted = solid_averted_[components[first]] != 0;
-                std::uint32_t last = first + 1;
-                while (last < end && (solid_averted_[components[last]] != 0) == averted) ++last;
-                visit(Segment{first, last - first, run.weight, averted ? Averted : Flipped});
-                first = last;
-            }
-        }
-    }
-
-    void choose_ranges() {
-        for_each([&](const Segment& s) {
-            faces_[s.kind] += std::uint64_t{s.count} * static_cast<unsigned>(std::abs(s.weight));
-            if (is_long(s)) ranges_.push_back(s);
-        });
-        const std::size_t most = options_.max_ranges;
-        if (ranges_.size() > most) {
-            const auto end = ranges_.begin() + static_cast<std::ptrdiff_t>(most);
-            std::nth_element(ranges_.begin(), end, ranges_.end(), is_longer);
-            ranges_.resize(most);
-        }
-        if (!ranges_.empty()) {
-            shortest_ = *std::max_element(ranges_.begin(), ranges_.end(), is_longer);
-        }
-        std::sort(ranges_.begin(), ranges_.end(), [](const Segment& a, const Segment& b) {
-            return std::tie(a.kind, a.first) < std::tie(b.kind, b.first);
-        });
-        written_ = faces_;
-        for (const Segment& s : ranges_) written_[s.kind] -= s.count;
-    }
-
-    const ShadowMesh& mesh_;
-    std::span<const FaceRun> casting_;
-    std::span<const std::uint8_t> solid_averted_;
-    const CapOptions& options_;
-    bool any_averted_ = false;
-    bool all_averted_ = false;
-    std::vector<Segment> ranges_;  // by kind, then face
-    Segment shortest_;             // of them
-    std::array<std::uint64_t, 3> faces_{};
-    std::array<std::uint64_t, 3> written_{};
+    struct Stretch {
+        std::size_t begin = 0;
+        std::size_t end = 0;
+        std::int64_t saved = 0;
+    };
+    std::vector<Kind> kinds_;         // of the range that a segment is within
+    std::vector<Stretch> stretches_;  // the ranges, of segments
 };
+
+// The caps of a volume: ranges, and what is written out.
+struct Caps {
+    std::vector<Segment> written;  // each as it is written, ascending
+    std::vector<Segment> undone;   // of ranges of its kind, ascending
+    std::array<std::vector<FaceRange>, 3> ranges;
+    Kinds written_faces{};
+    Kinds undone_faces{};
+    Kinds faces{};
+};
+
+void add_range(std::vector<FaceRange>& ranges, const Segment& s) {
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == s.first) {
+        ranges.back().count += s.count;
+    } else {
+        ranges.push_back({s.first, s.count});
+    }
+}
+
+void add_segment(Caps& caps, const Segment& s, Kind range) {
+    if (s.kind != None) caps.faces[s.kind] += std::uint64_t{s.count} * s.weight;
+    std::uint32_t left = s.weight;
+    if (range != None) {
+        add_range(caps.ranges[range], s);
+        if (range == s.kind) {
+            --left;
+        } else {
+            caps.undone.push_back({s.first, s.count, 1, range});
+            caps.undone_faces[range] += s.count;
+        }
+    }
+    if (left > 0) {
+        caps.written.push_back({s.first, s.count, left, s.kind});
+        caps.written_faces[s.kind] += std::uint64_t{s.count} * left;
+    }
+}
+
+Caps choose_caps(const ShadowMesh& mesh, std::span<const FaceRun> casting,
+                 std::span<const std::uint8_t> solid_averted, const CapOptions& options) {
+    Caps caps;
+    std::uint64_t faces = 0;
+    for (const FaceRun& run : casting) faces += run.count;
+    if (options.max_ranges == 0 || faces <= options.draw_worth_faces) {
+        for_each_segment(mesh, casting, solid_averted,
+                         [&](const Segment& s) { add_segment(caps, s, None); });
+        return caps;
+    }
+    std::vector<Segment> segments;
+    for_each_segment(mesh, casting, solid_averted,
+                     [&](const Segment& s) { segments.push_back(s); });
+    std::uint64_t worth = options.draw_worth_faces;
+    Ranges ranges(segments, worth);
+    // Too many: either such as pay for more, which are joined, or the best of the others.
+    while (ranges.count() > options.max_ranges) {
+        worth += worth / 2 + 1;
+        Ranges fewer(segments, worth);
+        if (fewer.count() <= options.max_ranges) {
+            ranges.keep_best(options.max_ranges);
+            if (ranges.saved() >= fewer.saved()) break;
+        }
+        ranges = std::move(fewer);
+    }
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        add_segment(caps, segments[i], ranges.kind(i));
+    }
+    return caps;
+}
 
 // ---------------------------------------------------------------------------------------------
 
@@ -176,27 +266,32 @@ void write_fan(std::span<const SilhouetteEdge> silhouette, Pen pen) {
     }
 }
 
+// Counter-clockwise from outside: the way round of the faces' own kind, or against it.
 void write_far_faces(const ShadowMesh& mesh, const Caps& caps, Pen pen) {
-    caps.for_each_written([&](const Segment& s) {
+    const auto write = [&](const Segment& s, bool reversed) {
         for (const auto& [a, b, c] : mesh.faces().subspan(s.first, s.count)) {
-            for (int i = 0; i < s.weight; ++i) {
-                pen.triangle(far_vertex(c), far_vertex(b), far_vertex(a));
-            }
-            for (int i = 0; i < -s.weight; ++i) {
-                pen.triangle(far_vertex(a), far_vertex(b), far_vertex(c));
+            for (std::uint32_t i = 0; i < s.weight; ++i) {
+                if (reversed) {
+                    pen.triangle(far_vertex(c), far_vertex(b), far_vertex(a));
+                } else {
+                    pen.triangle(far_vertex(a), far_vertex(b), far_vertex(c));
+                }
             }
         }
-    });
+    };
+    for (const Segment& s : caps.written) write(s, s.kind == Near);
+    for (const Segment& s : caps.undone) write(s, s.kind != Near);
 }
 
-void write_near_caps(const ShadowMesh& mesh, const Caps& caps, std::array<Pen, 3> pens) {
-    caps.for_each_written([&](const Segment& s) {
+void write_near_faces(const ShadowMesh& mesh, std::span<const Segment> segments,
+                      std::array<Pen, 3> pens) {
+    for (const Segment& s : segments) {
         for (const auto& [a, b, c] : mesh.faces().subspan(s.first, s.count)) {
-            for (int i = 0; i < std::abs(s.weight); ++i) {
+            for (std::uint32_t i = 0; i < s.weight; ++i) {
                 pens[s.kind].triangle(near_vertex(a), near_vertex(b), near_vertex(c));
             }
         }
-    });
+    }
 }
 
 }  // namespace
@@ -204,12 +299,13 @@ void write_near_caps(const ShadowMesh& mesh, const Caps& caps, std::array<Pen, 3
 void build_volume(const ShadowMesh& mesh, std::span<const FaceRun> casting,
                   std::span<const SilhouetteEdge> silhouette, const VolumeOptions& options,
                   Volume& out, std::span<const std::uint8_t> solid_averted) {
-    const Caps caps(mesh, casting, solid_averted, options.caps);
+    const Caps caps = choose_caps(mesh, casting, solid_averted, options.caps);
     const bool one_far_point = options.one_far_point();
     std::uint64_t sides = 0;
     for (const SilhouetteEdge& edge : silhouette) sides += static_cast<unsigned>(edge.count);
-    const std::uint64_t written =
-        caps.written(Near) + caps.written(Flipped) + caps.written(Averted);
+    std::uint64_t written = 0;
+    for (const std::uint64_t faces : caps.written_faces) written += faces;
+    for (const std::uint64_t faces : caps.undone_faces) written += faces;
     const bool fan = options.caps.far_cap == FarCap::Fan && !one_far_point;
     // Few enough that a draw for them alone would cost more.
     const bool few = written < options.caps.draw_worth_faces;
@@ -224,21 +320,19 @@ void build_volume(const ShadowMesh& mesh, std::span<const FaceRun> casting,
     out.far_cap = make_room(one_far_point ? 0 : fan ? sides : few ? written : 0);
     out.sides = make_room(one_far_point ? sides : 2 * sides);
     out.ranges.clear();
-    for (const Segment& s : caps.ranges()) out.ranges.push_back({s.first, s.count});
-    std::uint32_t first_range = 0;
-    const auto make_list = [&](Kind kind) {
-        const auto ranges = static_cast<std::uint32_t>(
-            std::count_if(caps.ranges().begin(), caps.ranges().end(),
-                          [&](const Segment& s) { return s.kind == kind; }));
-        const CapList list{make_room(caps.written(kind)),
-                           {first_range, ranges},
-                           static_cast<std::uint32_t>(caps.faces(kind))};
-        first_range += ranges;
-        return list;
-    };
-    out.near_cap = make_list(Near);
-    out.near_cap_flipped = make_list(Flipped);
-    out.near_cap_averted = make_list(Averted);
+    const std::array lists{&out.near_cap, &out.near_cap_flipped, &out.near_cap_averted};
+    for (std::size_t kind = 0; kind < lists.size(); ++kind) {
+        const auto& ranges = caps.ranges[kind];
+        CapList& list = *lists[kind];
+        list.triples = make_room(caps.written_faces[kind]);
+        list.ranges = {static_cast<std::uint32_t>(out.ranges.size()),
+                       static_cast<std::uint32_t>(ranges.size())};
+        list.faces = static_cast<std::uint32_t>(caps.faces[kind]);
+        out.ranges.insert(out.ranges.end(), ranges.begin(), ranges.end());
+    }
+    for (std::size_t kind = 0; kind < lists.size(); ++kind) {
+        lists[kind]->undone = make_room(caps.undone_faces[kind]);
+    }
     if (one_far_point || fan || (few && out.ranges.empty())) {
         out.far_copies = FarCopies::None;
     } else {
@@ -255,9 +349,10 @@ void build_volume(const ShadowMesh& mesh, std::span<const FaceRun> casting,
     } else if (out.far_cap.count > 0) {
         write_far_faces(mesh, caps, at(out.far_cap));
     }
-    write_near_caps(mesh, caps,
-                    {at(out.near_cap.triples), at(out.near_cap_flipped.triples),
-                     at(out.near_cap_averted.triples)});
+    write_near_faces(mesh, caps.written,
+                     {at(lists[0]->triples), at(lists[1]->triples), at(lists[2]->triples)});
+    write_near_faces(mesh, caps.undone,
+                     {at(lists[0]->undone), at(lists[1]->undone), at(lists[2]->undone)});
 }
 
 void build_volume(const ShadowMesh& mesh, std::span<const std::int8_t> weights,

@@ -31,7 +31,7 @@ struct IndexRange {
     std::uint32_t count = 0;
 };
 
-/// Faces [first, first + count) of the mesh, each of which casts once.
+/// Faces [first, first + count) of the mesh.
 struct FaceRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -55,10 +55,11 @@ enum class FarCap : std::uint8_t {
 /// How caps are put together. The counts are the same whatever is chosen.
 struct CapOptions {
     FarCap far_cap = FarCap::Faces;
-    /// A draw call is taken to cost as much as the indices of so many faces: runs of at least as
-    /// many are ranges. At most so many that no run is long enough: `plain`.
+    /// A range, which is a draw call or two, is taken to cost as much as the indices of so many
+    /// faces. Ranges are chosen so that the sum is least.
     std::uint32_t draw_worth_faces = 512;
-    /// No volume has more ranges: the longest ones are taken.
+    /// No volume has more ranges: where it would, those that save most are taken, or others that
+    /// are joined and save more.
     std::uint32_t max_ranges = 64;
 
     /// All triangles are written out, in `Volume::indices`.
@@ -81,23 +82,26 @@ struct VolumeOptions {
 /// The near caps of the faces of one kind, in the mesh's own order of corners (docs/conventions.md,
 /// "Caps keep their order").
 struct CapList {
-    IndexRange triples;       ///< in Volume::indices, in the mesh's order of faces
-    IndexRange ranges;        ///< in Volume::ranges, ascending
-    std::uint32_t faces = 0;  ///< in both, each as often as it casts
+    IndexRange triples;  ///< in Volume::indices, in the mesh's order of faces
+    IndexRange ranges;   ///< in Volume::ranges, ascending
+    /// In Volume::indices: those faces of `ranges` that do not cast, in order. They are drawn once
+    /// more with front and back the other way round, which undoes them exactly, pixel by pixel.
+    IndexRange undone;
+    std::uint32_t faces = 0;  ///< that cast, each as often as it does
 };
 
 /// Near caps that are drawn once more as far caps, with 1 added to each index and front and back
-/// the other way round.
+/// the other way round. What is undone counts as written out.
 enum class FarCopies : std::uint8_t { None, OfRanges, OfAll };
 
 /// Triangles, counter-clockwise from outside the volume where nothing else is said. `indices` has
-/// far_cap, sides and the triples of near_cap, near_cap_flipped and near_cap_averted, one after
-/// the other. for_each_triangle() has all of it put together.
+/// far_cap, sides, the triples of near_cap, near_cap_flipped and near_cap_averted, and what is
+/// undone of each of them, one after the other. for_each_triangle() has all of it put together.
 struct Volume {
     std::vector<std::uint32_t> indices;
     std::vector<FaceRange> ranges;  ///< of all near caps, list by list
-    /// The part of the far cap that is written out: a fan, or the far caps of all triples where
-    /// those are few. The rest is in `far_copies`.
+    /// The part of the far cap that is written out: a fan, or the far caps of all that is written
+    /// out where that is little. The rest is in `far_copies`.
     IndexRange far_cap;
     FarCopies far_copies = FarCopies::None;
     IndexRange sides;
@@ -144,25 +148,39 @@ void build_volume(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
 /// mesh's bounds, far vertices at infinity.
 [[nodiscard]] bool fan_is_exact(const ShadowMesh& mesh, LightLocal light, FarVertices far_vertices);
 
-/// Calls visit(std::array<std::uint32_t, 3>) with the welded vertices of each face, in the mesh's
-/// order of corners: of `triples` of near vertices, then of `ranges`.
+/// Calls visit(std::uint32_t) for each face of `ranges` that casts: without the `undone` ones,
+/// triples of near vertices in the same order.
 template <class Visit>
-void for_each_face(const ShadowMesh& mesh, std::span<const std::uint32_t> triples,
-                   std::span<const FaceRange> ranges, Visit&& visit) {
-    for (std::size_t i = 0; i + 2 < triples.size(); i += 3) {
-        visit(std::array{triples[i] / 2, triples[i + 1] / 2, triples[i + 2] / 2});
-    }
+void for_each_face_of_ranges(const ShadowMesh& mesh, std::span<const FaceRange> ranges,
+                             std::span<const std::uint32_t> undone, Visit&& visit) {
+    const auto faces = mesh.faces();
     for (const FaceRange& range : ranges) {
-        for (const auto& face : mesh.faces().subspan(range.first, range.count)) visit(face);
+        for (std::uint32_t f = range.first; f < range.first + range.count; ++f) {
+            // Of neighbours that are equal it does not matter which one is undone.
+            if (undone.size() >= 3 && undone[0] == 2 * faces[f][0] &&
+                undone[1] == 2 * faces[f][1] && undone[2] == 2 * faces[f][2]) {
+                undone = undone.subspan(3);
+            } else {
+                visit(f);
+            }
+        }
     }
 }
 
-/// The same of one list of a volume's near caps.
+/// Calls visit(std::array<std::uint32_t, 3>) with the welded vertices of each face of a list that
+/// casts, in the mesh's order of corners.
 template <class Visit>
 void for_each_cap_face(const ShadowMesh& mesh, const Volume& volume, const CapList& list,
                        Visit&& visit) {
-    for_each_face(mesh, std::span(volume.indices).subspan(list.triples.first, list.triples.count),
-                  std::span(volume.ranges).subspan(list.ranges.first, list.ranges.count), visit);
+    const std::span<const std::uint32_t> indices(volume.indices);
+    const auto triples = indices.subspan(list.triples.first, list.triples.count);
+    for (std::size_t i = 0; i < triples.size(); i += 3) {
+        visit(std::array{triples[i] / 2, triples[i + 1] / 2, triples[i + 2] / 2});
+    }
+    for_each_face_of_ranges(mesh,
+                            std::span(volume.ranges).subspan(list.ranges.first, list.ranges.count),
+                            indices.subspan(list.undone.first, list.undone.count),
+                            [&](std::uint32_t f) { visit(mesh.faces()[f]); });
 }
 
 /// Calls visit(std::array<std::uint32_t, 3>, bool exchanged) for every triangle of the volume, as
@@ -175,16 +193,29 @@ void for_each_triangle(const ShadowMesh& mesh, const Volume& volume, Visit&& vis
                   false);
         }
     }
+    const auto visit_triples = [&](const IndexRange& triples, std::uint32_t far, bool exchanged) {
+        for (std::uint32_t i = triples.first; i < triples.first + triples.count; i += 3) {
+            visit(std::array{volume.indices[i] + far, volume.indices[i + 1] + far,
+                             volume.indices[i + 2] + far},
+                  exchanged);
+        }
+    };
+    const auto visit_list = [&](const CapList& list, std::uint32_t far, bool exchanged) {
+        const bool written = far == 0 || volume.far_copies == FarCopies::OfAll;
+        if (written) visit_triples(list.triples, far, exchanged);
+        if (written) visit_triples(list.undone, far, !exchanged);
+        if (far != 0 && volume.far_copies == FarCopies::None) return;
+        for (const FaceRange& range :
+             std::span(volume.ranges).subspan(list.ranges.first, list.ranges.count)) {
+            for (const auto& [a, b, c] : mesh.faces().subspan(range.first, range.count)) {
+                visit(std::array{2 * a + far, 2 * b + far, 2 * c + far}, exchanged);
+            }
+        }
+    };
     bool exchanged = false;  // of the first list alone it is not
-    for (CapList list : volume.near_caps()) {
-        for_each_cap_face(mesh, volume, list, [&](const std::array<std::uint32_t, 3>& face) {
-            visit(std::array{2 * face[0], 2 * face[1], 2 * face[2]}, exchanged);
-        });
-        if (volume.far_copies != FarCopies::OfAll) list.triples.count = 0;
-        if (volume.far_copies == FarCopies::None) list.ranges.count = 0;
-        for_each_cap_face(mesh, volume, list, [&](const std::array<std::uint32_t, 3>& face) {
-            visit(std::array{2 * face[0] + 1, 2 * face[1] + 1, 2 * face[2] + 1}, !exchanged);
-        });
+    for (const CapList& list : volume.near_caps()) {
+        visit_list(list, 0, exchanged);
+        visit_list(list, 1, !exchanged);
         exchanged = true;
     }
 }

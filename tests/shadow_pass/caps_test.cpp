@@ -116,7 +116,7 @@ TEST(Caps, of_a_mesh_are_uploaded_once) {
     const std::uint64_t vertices = scene.mesh().positions().size() * 24;
     const std::uint64_t first = scene.frame(0.1).uploaded_bytes;
     EXPECT_EQ(first, matrices + vertices + of_mesh + scene.volume().indices.size() * 4);
-    EXPECT_GT(scene.volume().ranges.size(), 4U);
+    EXPECT_GT(scene.volume().ranges.size(), 2U);
     EXPECT_EQ(scene.frame(0.1).uploaded_bytes, matrices);
     const PassStats& turned = scene.frame(0.4);
     EXPECT_EQ(turned.uploaded_bytes, matrices + scene.volume().indices.size() * 4);
@@ -147,9 +147,11 @@ TEST(Caps, take_a_bounded_number_of_draws) {
     for (const std::uint32_t most : {0U, 1U, 5U, 40U}) {
         Scene scene(mesh, {.draw_worth_faces = 1, .max_ranges = most});
         const PassStats& stats = scene.frame(0.1);
-        EXPECT_EQ(scene.volume().ranges.size(), most);
-        // Sides with near caps, far caps of what is written out, and near and far of each range.
-        EXPECT_EQ(stats.draw_calls, 2U + 2U * most);
+        EXPECT_LE(scene.volume().ranges.size(), most);
+        EXPECT_GE(2 * scene.volume().ranges.size(), most);
+        // Sides with near caps, what is undone, and the far caps of both; near and far of ranges.
+        EXPECT_LE(stats.draw_calls, 4U + 2U * scene.volume().ranges.size());
+        EXPECT_GE(stats.draw_calls, 1U + 2U * scene.volume().ranges.size());
     }
     Scene plain(mesh, CapOptions::plain());
     EXPECT_EQ(plain.frame(0.1).draw_calls, 1U);
@@ -175,7 +177,7 @@ TEST(Caps, of_a_million_triangles_upload_kilobytes) {
             static_cast<unsigned long long>(stats.draw_calls));
     }
     EXPECT_GT(bytes[0], 9'000'000U) << "written out";
-    EXPECT_LT(bytes[1], 600'000U);
+    EXPECT_LT(bytes[1], 300'000U);
 }
 
 }  // namespace

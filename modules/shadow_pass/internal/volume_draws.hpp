@@ -32,7 +32,9 @@ struct Run {
 /// In an order that changes state seldom; neighbours that are drawn alike are one.
 [[nodiscard]] std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& desc);
 
-/// The near caps alone, whatever the technique: for Part::Caps.
-[[nodiscard]] std::vector<Run> near_caps_of(const shadows::Volume& volume);
+/// The near caps of the faces that cast, whatever the technique, without those that are undone: for
+/// Part::Caps.
+[[nodiscard]] std::vector<Run> near_caps_of(const shadows::ShadowMesh& mesh,
+                                            const shadows::Volume& volume);
 
 }  // namespace gnomon::shadow_pass::internal

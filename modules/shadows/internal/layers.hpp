@@ -12,15 +12,16 @@
 
 namespace gnomon::shadows::internal {
 
-/// As for_each_face() has them.
+/// Triples of near vertices, and faces of ranges without those that are undone.
 struct CastingFaces {
     std::span<const std::uint32_t> triples;
     std::span<const FaceRange> ranges = {};
+    std::span<const std::uint32_t> undone = {};
 
     [[nodiscard]] std::uint64_t count() const {
         std::uint64_t faces = triples.size() / 3;
         for (const FaceRange& range : ranges) faces += range.count;
-        return faces;
+        return faces - undone.size() / 3;
     }
 };
 
