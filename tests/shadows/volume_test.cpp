@@ -412,7 +412,7 @@ TEST_P(BrokenVolume, NoticesAnyWrongRange) {
     build_volume(*mesh_, casting, silhouette,
                  {directional(), FarVertices::AtInfinity, {.draw_worth_faces = 2}}, good);
     EXPECT_TRUE(is_closed(*mesh_, good));
-    ASSERT_GT(good.ranges.size(), 1U);
+    ASSERT_GT(good.ranges.size(), 0U);
     ASSERT_GT(good.near_cap.undone.count, 0U);
     Volume all_cast = good;
     all_cast.near_cap.undone.count = 0;
