@@ -25,6 +25,19 @@ void save_pgm(const std::filesystem::path& path, std::uint32_t width, std::uint3
                static_cast<std::streamsize>(values.size()));
 }
 
+std::vector<shadows::Light> lights_of(const scene::Scene& scene) {
+    std::vector<shadows::Light> lights;
+    const auto add = [&](scene::Entity entity, const auto&) {
+        if (const auto light = scene::shadow_light(scene.registry, entity)) {
+            lights.push_back(*light);
+        }
+    };
+    scene.registry.each<scene::PointLight>(add);
+    scene.registry.each<scene::SpotLight>(add);
+    scene.registry.each<scene::DirectionalLight>(add);
+    return lights;
+}
+
 }  // namespace
 
 Result<Picture> take_picture(gpu::Device& device, const Setting& setting,
@@ -42,10 +55,23 @@ Result<Picture> take_picture(gpu::Device& device, const Setting& setting,
     if (const Status uploaded = renderer->upload(setting.scene); !uploaded)
         return forward_error(uploaded);
     auto system = shadows::ShadowSystem::create({.force_technique = options.technique,
+                                                 .silhouette = options.silhouette,
                                                  .max_layers = options.max_layers,
                                                  .caps = options.caps});
     if (!system) return forward_error(system);
     scene::ShadowAdapter adapter;
+    for (int left = options.approach_frames; left > 0; --left) {
+        auto before = system->begin_frame();
+        const auto casters =
+            adapter.casters(setting.scene, options.cull_back_faces, options.near_caps);
+        if (!casters) return forward_error(casters);
+        for (const shadows::Caster& caster : *casters) before.caster(caster);
+        for (shadows::Light light : lights_of(setting.scene)) {
+            light.position_world += 0.004 * left * glm::dvec4(1.0, 0.5, -0.7, 0.0);
+            before.light(light);
+        }
+        static_cast<void>(std::move(before).finish(setting.view));
+    }
     auto frame = system->begin_frame();
     const Status submitted =
         adapter.submit(setting.scene, frame, options.cull_back_faces, options.near_caps);

@@ -32,6 +32,10 @@ struct PictureOptions {
     shadow_pass::AvertedFaces averted_faces = shadow_pass::AvertedFaces::Shadowed;
     std::uint32_t max_layers = 255;
     shadows::CapOptions caps = {};
+    std::string silhouette = "auto";
+    /// Frames before the one that is drawn, in which the lights come to their places in small steps:
+    /// for strategies that remember.
+    int approach_frames = 0;
     bool cull_back_faces = false;
     gpu::Compare volume_depth_compare = gpu::Compare::Greater;
     std::function<void(shadows::DrawList&)> mutate =
