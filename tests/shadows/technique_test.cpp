@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "internal/near_clip.hpp"
 #include "tests/shadows/random_meshes.hpp"
 
 namespace gnomon::shadows {
@@ -165,6 +166,27 @@ TEST(Technique, DepthPassIsNeverValidWhereAShadowReachesTheNearRectangle) {
     EXPECT_GT(clear, 5'000);
     // Not trivially false: what is lost is what lies within the widened rectangle.
     EXPECT_GT(clear_and_valid, clear * 8 / 10);
+}
+
+TEST(Technique, ASphereIsClearOnlyWhereAllThatItHoldsIs) {
+    GNOMON_RANDOM(random);
+    int clear = 0;
+    int told_by_sphere = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const Situation s = random_situation(random);
+        const auto corners = corners_of(s.bounds);
+        glm::dvec3 center(0.0);
+        for (const auto& corner : corners) center += corner * 0.125;
+        double radius = 0.0;
+        for (const auto& corner : corners) radius = std::max(radius, glm::length(corner - center));
+        const internal::NearClip clip(s.light, s.view);
+        const bool valid = depth_pass_is_valid(s.bounds, s.light, s.view);
+        clear += valid ? 1 : 0;
+        if (!clip.is_clear_of_sphere(center, radius)) continue;
+        ++told_by_sphere;
+        ASSERT_TRUE(valid) << "situation " << i;
+    }
+    EXPECT_GT(told_by_sphere, clear / 2);
 }
 
 TEST(Technique, SweepsThroughAShadowsSideInSmallSteps) {
