@@ -33,10 +33,17 @@ glm::vec3 position_at(const MeshView& view, std::size_t vertex) {
     return p + 0.0F;  // -0 becomes +0, so that equal positions have equal bits
 }
 
-struct PositionHash {
-    std::size_t operator()(const glm::vec3& p) const {
-        const auto x = std::bit_cast<std::array<std::uint32_t, 3>>(p);
-        std::uint64_t h = 0x9E3779B97F4A7C15ULL;
+struct WeldKey {
+    glm::vec3 position;
+    std::uint32_t identity = 0;
+
+    bool operator==(const WeldKey&) const = default;
+};
+
+struct WeldKeyHash {
+    std::size_t operator()(const WeldKey& key) const {
+        const auto x = std::bit_cast<std::array<std::uint32_t, 3>>(key.position);
+        std::uint64_t h = 0x9E3779B97F4A7C15ULL + key.identity * 0xC2B2AE3D27D4EB4FULL;
         for (const std::uint32_t word : x) h = (h ^ word) * 0xFF51AFD7ED558CCDULL, h ^= h >> 29U;
         return static_cast<std::size_t>(h);
     }
@@ -87,6 +94,11 @@ Status check(const MeshView& view) {
         return bad("The mesh has " + std::to_string(view.vertex_count) +
                    " vertices but no positions.");
     }
+    if (!view.identities.empty() && view.identities.size() != view.vertex_count) {
+        return bad("The mesh has " + std::to_string(view.identities.size()) +
+                   " identities, but must have none or one for each of its " +
+                   std::to_string(view.vertex_count) + " vertices.");
+    }
     for (std::size_t i = 0; i < view.indices.size(); ++i) {
         if (view.indices[i] >= view.vertex_count) {
             return bad("Index " + std::to_string(i) + " of the mesh is " +
@@ -114,11 +126,11 @@ struct Welded {
     std::vector<std::array<std::uint32_t, 3>> faces;
 };
 
-// Only positions that triangles use, numbered by first use.
+// Only vertices that triangles use, numbered by first use.
 Welded weld(const MeshView& view) {
     constexpr std::uint32_t unknown = std::numeric_limits<std::uint32_t>::max();
     Welded result;
-    std::unordered_map<glm::vec3, std::uint32_t, PositionHash> known;
+    std::unordered_map<WeldKey, std::uint32_t, WeldKeyHash> known;
     known.reserve(view.vertex_count);
     std::vector<std::uint32_t> welded_of(view.vertex_count, unknown);
     result.faces.resize(view.indices.size() / 3);
@@ -127,8 +139,9 @@ Welded weld(const MeshView& view) {
         std::uint32_t& target = welded_of[vertex];
         if (target == unknown) {
             const glm::vec3 p = position_at(view, vertex);
+            const WeldKey key{p, view.identities.empty() ? 0 : view.identities[vertex]};
             const auto [found, inserted] =
-                known.try_emplace(p, static_cast<std::uint32_t>(result.positions.size()));
+                known.try_emplace(key, static_cast<std::uint32_t>(result.positions.size()));
             if (inserted) {
                 result.positions.push_back(p);
                 result.sources.push_back(vertex);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // ShadowMesh: what shadows need to know of a triangle mesh, worked out once. Vertices welded by
-// exact position, unique edges with all their signed face uses, components, face planes with error
-// bounds, and a report. Any triangles do: open, non-manifold, inconsistently wound, degenerate. It
-// is immutable and may be shared between threads.
+// exact position (and identity, where they may move apart), unique edges with all their signed face
+// uses, components, face planes with error bounds, and a report. Any triangles do: open,
+// non-manifold, inconsistently wound, degenerate. It is immutable and may be shared between
+// threads.
 #pragma once
 
 #include <array>
@@ -37,6 +38,12 @@ struct MeshView {
     std::size_t vertex_count = 0;
     std::span<const std::uint32_t> indices =
         {};  ///< three a triangle, counter-clockwise from outside
+    /// One number a vertex, or none at all: vertices at one position are welded only where their
+    /// numbers are equal as well. It is for meshes that deform: what may move apart must not be
+    /// welded, and what moves alike must be, or a seam would open. Give equal numbers exactly to
+    /// vertices that have equal positions in every pose. What is not welded is a boundary there,
+    /// and boundaries cast two-sided: right, but dearer (docs/conventions.md).
+    std::span<const std::uint32_t> identities = {};
 };
 
 /// What is found on the way. None of it is an error: the shadow is right whatever it says
@@ -44,7 +51,7 @@ struct MeshView {
 struct MeshReport {
     std::uint64_t triangles = 0;
     std::uint64_t vertices = 0;         ///< as given
-    std::uint64_t welded_vertices = 0;  ///< distinct positions that triangles use
+    std::uint64_t welded_vertices = 0;  ///< distinct (positions, identities) that triangles use
     std::uint64_t edges = 0;
     std::uint64_t components = 0;
     std::uint64_t closed_components = 0;
@@ -111,8 +118,8 @@ struct FacePlanes {
 class ShadowMesh {
 public:
     /// Fails with ErrorCode::InvalidInput: a position that is not finite, an index out of range, an
-    /// index count that is not a multiple of three, more than 2^30 vertices or 2^27 triangles.
-    /// Cost: O(n log n), about 100 bytes a triangle.
+    /// index count that is not a multiple of three, identities that are not one a vertex, more than
+    /// 2^30 vertices or 2^27 triangles. Cost: O(n log n), about 100 bytes a triangle.
     [[nodiscard]] static Result<std::shared_ptr<const ShadowMesh>> build(const MeshView& view);
 
     /// The same triangles with vertices in other places: of a skinned or morphed mesh, each frame.

@@ -163,6 +163,37 @@ TEST(ShadowMesh, WeldsEqualPositionsAndNoOthers) {
     }
 }
 
+TEST(ShadowMesh, WeldsOnlyVerticesOfOneIdentity) {
+    // A box whose faces share no vertex.
+    const Triangles box = test::box();
+    std::vector<glm::vec3> corners;
+    std::vector<std::uint32_t> in_order;
+    for (const std::uint32_t index : box.indices) {
+        in_order.push_back(static_cast<std::uint32_t>(corners.size()));
+        corners.push_back(box.positions[index]);
+    }
+    const auto report = [&](const std::vector<std::uint32_t>& identities) {
+        const auto mesh = ShadowMesh::build({.positions = std::as_bytes(std::span(corners)).data(),
+                                             .vertex_count = corners.size(),
+                                             .indices = in_order,
+                                             .identities = identities});
+        return mesh.has_value() ? (*mesh)->report() : MeshReport{};
+    };
+    EXPECT_EQ(report({}).welded_vertices, 8U);
+    EXPECT_EQ(report(box.indices).welded_vertices, 8U);
+    EXPECT_TRUE(report(box.indices).closed());
+    // All alike says nothing that positions do not.
+    EXPECT_EQ(report(std::vector<std::uint32_t>(corners.size(), 7)).welded_vertices, 8U);
+    EXPECT_EQ(report(in_order).welded_vertices, 36U);
+    EXPECT_EQ(report(in_order).boundary_edges, 36U);
+    // One corner of one face moves by itself: its two edges are open on both sides.
+    std::vector<std::uint32_t> torn = box.indices;
+    torn[0] = 100;
+    EXPECT_EQ(report(torn).welded_vertices, 9U);
+    EXPECT_EQ(report(torn).boundary_edges, 4U);
+    EXPECT_FALSE(report(torn).closed());
+}
+
 TEST(ShadowMesh, LeavesOutVerticesThatNoTriangleUses) {
     const auto mesh =
         test::build({{{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-9, 0, 0}}, {1, 2, 3}});
@@ -430,6 +461,10 @@ TEST(ShadowMesh, NamesWhatIsWrong) {
     EXPECT_EQ(error_of(view({}, triangle)), "Index 0 of the mesh is 0, but it has 0 vertices.");
     EXPECT_EQ(error_of({.positions = nullptr, .vertex_count = 3, .indices = triangle}),
               "The mesh has 3 vertices but no positions.");
+    MeshView few = view(good, triangle);
+    few.identities = std::span(triangle).first(2);
+    EXPECT_EQ(error_of(few),
+              "The mesh has 2 identities, but must have none or one for each of its 3 vertices.");
     for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
         for (int axis = 0; axis < 3; ++axis) {
             auto positions = good;
