@@ -146,9 +146,17 @@ Result<Motion> parse_motion(std::string_view text) {
             return motion;
         }
     }
-    return fail(
-        ErrorCode::InvalidInput,
-        fmt::format("--animate: \"{}\" is none of static, camera, light:DEG, casters:K.", text));
+    if (kind == "play" && !value.empty()) {
+        motion.kind = MotionKind::Play;
+        const auto fps = parse_number(value, "--animate play", 1e-3, 1e6);
+        if (!fps) return forward_error(fps);
+        motion.fps = *fps;
+        return motion;
+    }
+    return fail(ErrorCode::InvalidInput,
+                fmt::format("--animate: \"{}\" is none of static, camera, light:DEG, casters:K, "
+                            "play:FPS.",
+                            text));
 }
 
 Result<render::Overlays> parse_overlays(std::string_view text) {

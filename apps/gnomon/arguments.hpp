@@ -33,11 +33,12 @@ struct LightArgument {
     std::optional<double> range_m = std::nullopt;
 };
 
-enum class MotionKind { Static, Camera, Light, Casters };
+enum class MotionKind { Static, Camera, Light, Casters, Play };
 struct Motion {
     MotionKind kind = MotionKind::Static;
     double degrees = 1.0;       ///< per frame
     std::uint32_t casters = 0;  ///< how many turn
+    double fps = 30.0;          ///< frames that a second of the file's animation takes
 };
 
 [[nodiscard]] Result<double> parse_number(std::string_view text, std::string_view what);

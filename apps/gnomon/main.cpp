@@ -174,8 +174,18 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
         ->check(CLI::Range(1, 1000000));
     render
         ->add_option_function<std::string>("--animate", parsed_into(o.motion, cli::parse_motion),
-                                           "static, camera, light:DEG a frame, casters:K")
+                                           "static, camera, light:DEG a frame, casters:K, play:FPS")
         ->type_name("MOTION");
+    render
+        ->add_option_function<std::string>(
+            "--time", parsed_into(o.time_s, number("--time", -1e9, 1e9)),
+            "Evaluate the file's first animation there; with play:FPS the time of the first frame")
+        ->type_name("SECONDS");
+    render
+        ->add_option_function<std::string>(
+            "--animation", [&o](const std::string& text) { o.animation = text; },
+            "Which animation of the file --time and play:FPS are about")
+        ->type_name("NAME|N");
     render
         ->add_option_function<std::string>(
             "--near",

@@ -97,6 +97,10 @@ Status Run::read_masks(std::size_t light) {
 
 Status Run::frame(std::uint32_t index, bool last) {
     animator_->apply(index, shot_);
+    if (options_.motion.kind == MotionKind::Play && index > 0) {
+        const double time_s = shot_.start_s + index / options_.motion.fps;
+        if (const Status played = play(shot_, time_s, options_.scene); !played) return played;
+    }
     const auto start = Clock::now();
     const gpu::DeviceCounters before = device_.counters();
     FrameRecord record;

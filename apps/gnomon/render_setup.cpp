@@ -9,6 +9,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <gnomon/render/camera.hpp>
+#include <gnomon/scene/animation.hpp>
+#include <gnomon/scene/deform.hpp>
 #include <gnomon/scene/scene_description.hpp>
 #include <gnomon/scene/transforms.hpp>
 
@@ -107,7 +109,42 @@ Status use_camera_of_file(const RenderOptions& options, Shot& shot) {
     return {};
 }
 
+// Nothing is played unless somebody asks: a file is drawn as it stands.
+Status choose_animations(const RenderOptions& options, Shot& shot) {
+    const bool plays = options.motion.kind == MotionKind::Play;
+    if (!options.time_s && !options.animation && !plays) return {};
+    shot.start_s = options.time_s.value_or(0.0);
+    shot.animations = scene::find_animations(shot.scene, options.animation);
+    if (!shot.animations.empty()) return {};
+    if (!options.animation) {
+        shot.scene.messages.push_back(
+            fmt::format("{} has no animation: nothing is played.", options.scene));
+        return {};
+    }
+    std::string names;
+    for (const scene::Animation& animation : shot.scene.animations) {
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", animation.name);
+    }
+    return fail(ErrorCode::InvalidInput,
+                fmt::format("--animation: {} has none that is named or numbered \"{}\"; {}.",
+                            options.scene, *options.animation,
+                            names.empty() ? "it has no animations" : "there are " + names));
+}
+
 }  // namespace
+
+Status play(Shot& shot, double time_s, const std::string& name) {
+    const auto named = [&](const Status& status) {
+        return fail(status.error().code, fmt::format("{}: {}", name, status.error().message));
+    };
+    for (const std::size_t animation : shot.animations) {
+        const Status moved = scene::animate(shot.scene, animation, time_s);
+        if (!moved) return named(moved);
+    }
+    scene::update_world_transforms(shot.scene.registry);
+    const Status deformed = scene::deform(shot.scene);
+    return deformed ? deformed : named(deformed);
+}
 
 Result<Shot> make_shot(const RenderOptions& options) {
     auto loaded = scene::load_scene(options.scene);
@@ -115,6 +152,13 @@ Result<Shot> make_shot(const RenderOptions& options) {
     Shot shot;
     shot.scene = std::move(*loaded);
     scene::Registry& registry = shot.scene.registry;
+    if (const Status chosen = choose_animations(options, shot); !chosen) {
+        return forward_error(chosen);
+    }
+    if (!shot.animations.empty()) {
+        const Status played = play(shot, shot.start_s, options.scene);
+        if (!played) return forward_error(played);
+    }
     scene::update_world_transforms(registry);
     shot.bounds = scene::world_bounds(shot.scene);
     const double diagonal = shot.bounds.diagonal();

@@ -15,7 +15,13 @@ struct Shot {
     scene::Camera camera;
     glm::dmat4 world_from_camera{1.0};
     double near_m = 0.01;
+    std::vector<std::size_t> animations = {};  ///< that are played, by place in the scene
+    double start_s = 0.0;                      ///< their time in the first frame
 };
+
+/// Brings the scene to what its animations say at `time_s`: poses, skins and morphs. `name` stands
+/// for the file in messages.
+[[nodiscard]] Status play(Shot& shot, double time_s, const std::string& name);
 
 [[nodiscard]] Result<Shot> make_shot(const RenderOptions& options);
 

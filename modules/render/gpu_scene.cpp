@@ -112,31 +112,63 @@ Result<gpu::Buffer> GpuScene::create_buffer(const char* label, std::span<const s
 Status GpuScene::upload_mesh(const std::shared_ptr<const scene::Mesh>& mesh) {
     GpuMesh gpu_mesh;
     gpu_mesh.mesh = mesh;
-    std::vector<Attributes> attributes(mesh->positions.size());
-    glm::dvec3 low(mesh->positions[0]);
-    glm::dvec3 high = low;
-    for (std::size_t i = 0; i < attributes.size(); ++i) {
-        attributes[i] = {mesh->normals[i],
-                         mesh->texcoords.empty() ? glm::vec2(0.0F) : mesh->texcoords[i]};
-        low = glm::min(low, glm::dvec3(mesh->positions[i]));
-        high = glm::max(high, glm::dvec3(mesh->positions[i]));
-    }
-    gpu_mesh.center = (low + high) * 0.5;
-    gpu_mesh.radius = glm::length(high - low) * 0.5;
-    auto positions = create_buffer("positions", std::as_bytes(std::span(mesh->positions)),
-                                   gpu::BufferUsage::Vertex);
-    if (!positions) return forward_error(positions);
-    auto packed = create_buffer("normals and texcoords", std::as_bytes(std::span(attributes)),
-                                gpu::BufferUsage::Vertex);
-    if (!packed) return forward_error(packed);
     auto indices =
         create_buffer("indices", std::as_bytes(std::span(mesh->indices)), gpu::BufferUsage::Index);
     if (!indices) return forward_error(indices);
-    gpu_mesh.positions = std::move(*positions);
-    gpu_mesh.attributes = std::move(*packed);
     gpu_mesh.indices = std::move(*indices);
     meshes_.emplace(mesh.get(), std::move(gpu_mesh));
     return {};
+}
+
+// Into the buffers that are there, where there are any: an instance keeps its number of vertices.
+Status GpuScene::write_vertices(GpuVertices& vertices, const scene::Mesh& mesh,
+                                const scene::Geometry& geometry) {
+    std::vector<Attributes> attributes(geometry.positions.size());
+    glm::dvec3 low(geometry.positions[0]);
+    glm::dvec3 high = low;
+    for (std::size_t i = 0; i < attributes.size(); ++i) {
+        attributes[i] = {geometry.normals[i],
+                         mesh.texcoords.empty() ? glm::vec2(0.0F) : mesh.texcoords[i]};
+        low = glm::min(low, glm::dvec3(geometry.positions[i]));
+        high = glm::max(high, glm::dvec3(geometry.positions[i]));
+    }
+    vertices.center = (low + high) * 0.5;
+    vertices.radius = glm::length(high - low) * 0.5;
+    const auto write = [&](gpu::Buffer& buffer, const char* label,
+                           std::span<const std::byte> bytes) -> Status {
+        if (buffer) return device_->write_buffer(buffer, 0, bytes);
+        auto created = create_buffer(label, bytes, gpu::BufferUsage::Vertex);
+        if (!created) return forward_error(created);
+        buffer = std::move(*created);
+        return {};
+    };
+    const Status written =
+        write(vertices.positions, "positions", std::as_bytes(geometry.positions));
+    if (!written) return written;
+    return write(vertices.attributes, "normals and texcoords",
+                 std::as_bytes(std::span(attributes)));
+}
+
+Result<const GpuVertices*> GpuScene::vertices_of(scene::Entity entity, GpuMesh& mesh,
+                                                 const scene::Geometry& geometry) {
+    if (geometry.revision == 0) {
+        if (!mesh.vertices) {
+            GpuVertices vertices;
+            const Status written = write_vertices(vertices, *mesh.mesh, geometry);
+            if (!written) return forward_error(written);
+            mesh.vertices = std::move(vertices);
+        }
+        return &*mesh.vertices;
+    }
+    DeformedVertices& deformed = deformed_[entity.key()];
+    if (deformed.mesh != mesh.mesh.get()) deformed = {};
+    if (deformed.revision != geometry.revision) {
+        const Status written = write_vertices(deformed.vertices, *mesh.mesh, geometry);
+        if (!written) return forward_error(written);
+        deformed.revision = geometry.revision;
+        deformed.mesh = mesh.mesh.get();
+    }
+    return &deformed.vertices;
 }
 
 Status GpuScene::ensure_lines(GpuMesh& mesh) {
@@ -222,14 +254,21 @@ Status GpuScene::upload_materials(const std::vector<scene::Material>& materials)
 Status GpuScene::upload(const scene::Scene& scene) {
     std::unordered_map<const scene::Mesh*, bool> present;
     Status status;
-    scene.registry.each<scene::MeshInstance>(
-        [&](scene::Entity, const scene::MeshInstance& instance) {
-            present[instance.mesh.get()] = true;
-            if (status && !meshes_.contains(instance.mesh.get()))
-                status = upload_mesh(instance.mesh);
-        });
+    scene.registry.each<scene::MeshInstance>([&](scene::Entity entity,
+                                                 const scene::MeshInstance& instance) {
+        present[instance.mesh.get()] = true;
+        if (status && !meshes_.contains(instance.mesh.get())) status = upload_mesh(instance.mesh);
+        if (!status) return;
+        const auto vertices = vertices_of(entity, *find(instance.mesh.get()),
+                                          scene::geometry_of(scene.registry, entity, instance, {}));
+        if (!vertices) status = forward_error(vertices);
+    });
     if (!status) return status;
     std::erase_if(meshes_, [&](const auto& entry) { return !present.contains(entry.first); });
+    std::erase_if(deformed_, [&](const auto& entry) {
+        return !scene.registry.has<scene::Deformed>(scene::Entity::from_key(entry.first)) ||
+               !present.contains(entry.second.mesh);
+    });
     return upload_materials(scene.materials);
 }
 

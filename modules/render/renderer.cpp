@@ -66,6 +66,7 @@ double milliseconds_since(Clock::time_point start) {
 
 struct Instance {
     internal::GpuMesh* mesh = nullptr;
+    const internal::GpuVertices* vertices = nullptr;
     std::uint32_t draw_offset = 0;
     Culling culling = Culling::None;
     glm::dvec3 center{0.0};
@@ -194,24 +195,33 @@ Status Renderer::State::collect_instances(const FrameInput& frame) {
     instances.clear();
     std::vector<std::byte> bytes;
     const glm::dmat4 clip_from_world = frame.view.clip_from_world();
+    Status status;
     frame.scene.registry.each<scene::Receiver, scene::MeshInstance, scene::WorldTransform>(
-        [&](scene::Entity, const scene::Receiver&, const scene::MeshInstance& mesh,
+        [&](scene::Entity entity, const scene::Receiver&, const scene::MeshInstance& mesh,
             const scene::WorldTransform& transform) {
             internal::GpuMesh* gpu_mesh = gpu_scene.find(mesh.mesh.get());
-            if (gpu_mesh == nullptr) return;
-            const glm::dmat4 world = scene::world_from_mesh(transform, *mesh.mesh);
+            if (gpu_mesh == nullptr || !status) return;
+            const scene::Geometry geometry =
+                scene::geometry_of(frame.scene.registry, entity, mesh, transform);
+            const auto vertices = gpu_scene.vertices_of(entity, *gpu_mesh, geometry);
+            if (!vertices) {
+                status = forward_error(vertices);
+                return;
+            }
+            const glm::dmat4& world = geometry.world_from_positions;
             Instance instance;
             instance.mesh = gpu_mesh;
+            instance.vertices = *vertices;
             instance.draw_offset = static_cast<std::uint32_t>(bytes.size());
             const glm::dmat3 linear(world);
             if (desc.cull_back_faces) {
                 instance.culling =
                     glm::determinant(linear) < 0.0 ? Culling::BackMirrored : Culling::Back;
             }
-            instance.center = glm::dvec3(world * glm::dvec4(gpu_mesh->center, 1.0));
+            instance.center = glm::dvec3(world * glm::dvec4(instance.vertices->center, 1.0));
             const double scale =
                 glm::length(linear[0]) + glm::length(linear[1]) + glm::length(linear[2]);
-            instance.radius = gpu_mesh->radius * scale;
+            instance.radius = instance.vertices->radius * scale;
 
             const glm::dmat4 view_from_local = frame.view.view_from_world * world;
             const DrawUniforms u{glm::mat4(clip_from_world * world), glm::mat4(view_from_local),
@@ -220,6 +230,7 @@ Status Renderer::State::collect_instances(const FrameInput& frame) {
             std::memcpy(bytes.data() + instance.draw_offset, &u, sizeof u);
             instances.push_back(instance);
         });
+    if (!status) return status;
     // Changing a material costs some drivers far more than a draw.
     std::stable_sort(instances.begin(), instances.end(), [](const Instance& a, const Instance& b) {
         return std::pair(a.culling, a.mesh->mesh->sub_meshes[0].material) <
@@ -244,8 +255,8 @@ Status Renderer::State::write_frame_uniforms(const FrameInput& input,
 
 void Renderer::State::draw_instance(gpu::RenderPassEncoder& pass, const Instance& instance) const {
     pass.set_bind_group(0, draws.group, std::span(&instance.draw_offset, 1));
-    pass.set_vertex_buffer(0, instance.mesh->positions);
-    pass.set_vertex_buffer(1, instance.mesh->attributes);
+    pass.set_vertex_buffer(0, instance.vertices->positions);
+    pass.set_vertex_buffer(1, instance.vertices->attributes);
 }
 
 void Renderer::State::draw_geometry(gpu::RenderPassEncoder& pass,

@@ -69,8 +69,8 @@ public:
     Renderer& operator=(Renderer&&) noexcept;
     ~Renderer();
 
-    /// Meshes and materials of a scene. Call it again when some are added or replaced; poses and
-    /// lights are read by render().
+    /// Meshes and materials of a scene. Call it again when some are added or replaced; poses,
+    /// lights and deformed vertices are read by render(), the last uploaded when they changed.
     [[nodiscard]] Status upload(const scene::Scene& scene);
 
     /// One frame, submitted; does not wait for the device.

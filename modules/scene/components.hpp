@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -43,6 +44,32 @@ struct WorldTransform {
 
 struct MeshInstance {
     std::shared_ptr<const Mesh> mesh;
+};
+
+/// The joints that move an instance whose mesh is skinned (MeshDeformation::influences).
+struct Skin {
+    std::vector<Entity> joints;
+    /// One a joint: from the space of the mesh to the joint's own, as it was bound.
+    std::shared_ptr<const std::vector<glm::dmat4>> inverse_bind_matrices;
+};
+
+/// How much of each morph target is blended into an instance: one a target.
+struct MorphWeights {
+    std::vector<double> values;
+};
+
+/// What an instance's vertices are now. Written by deform() (deform.hpp), read through
+/// geometry_of() (scene.hpp).
+struct Deformed {
+    std::shared_ptr<const Mesh> mesh;  ///< of which; under another one it does not count
+    /// Where the origin of `positions` lies in the instance's space, as Mesh::origin.
+    glm::dvec3 origin{0.0};
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;  ///< unit
+    /// Never zero, no two states of the process have the same one, and it changes only when a
+    /// number above does.
+    std::uint64_t revision = 0;
+    std::vector<double> inputs;  ///< the weights and joints it was made from
 };
 
 struct Caster {};    ///< tag: its mesh casts shadows

@@ -20,8 +20,11 @@ struct GltfOptions {
 
 /// Every mesh node becomes a Caster and a Receiver; lights and cameras become components. What is
 /// skipped (points, lines, images that cannot be decoded) is named in Scene::messages; extensions
-/// that the file requires and this reader does not know are refused. Skinned meshes come in their
-/// rest pose, as entities of their own at the top of the scene. Files beside this one are read only
+/// that the file requires and this reader does not know are refused. Skins, morph targets and
+/// animations become components and Scene::animations; skinned and morphed meshes are deformed as
+/// the nodes stand and the file's weights say (deform.hpp), until something is played. A skinned
+/// mesh is an entity of its own at the top of the scene, since glTF ignores the transform of its
+/// node. Files beside this one are read only
 /// from its folder and below. Fails with ErrorCode::InvalidInput or Io and one sentence that names
 /// the file, the place in it, the value and the limit.
 [[nodiscard]] Result<Scene> load_gltf(const std::filesystem::path& path,

@@ -12,6 +12,8 @@
 
 #include <glm/glm.hpp>
 
+#include <gnomon/scene/mesh_deformation.hpp>
+
 namespace gnomon::scene {
 
 struct Image {
@@ -56,6 +58,9 @@ struct Mesh {
     std::vector<glm::vec2> texcoords;    ///< one per position; empty when no primitive has any
     std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
     std::vector<SubMesh> sub_meshes;     ///< cover `indices` without gap or overlap, in order
+    /// Joints' weights and morph targets; null for most meshes. What is above is then the pose that
+    /// it was bound in.
+    std::shared_ptr<const MeshDeformation> deformation = nullptr;
 
     [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
 };

@@ -26,22 +26,33 @@ Entity Scene::create_node(std::string name, const LocalTransform& local,
 Bounds world_bounds(const Scene& scene) {
     Bounds bounds;
     scene.registry.each<MeshInstance, WorldTransform>(
-        [&bounds](Entity, const MeshInstance& instance, const WorldTransform& world) {
-            if (instance.mesh) internal::include_mesh(bounds, world, *instance.mesh);
+        [&](Entity entity, const MeshInstance& instance, const WorldTransform& world) {
+            if (!instance.mesh) return;
+            internal::include_positions(bounds,
+                                        geometry_of(scene.registry, entity, instance, world));
         });
     return bounds;
 }
 
-glm::dmat4 world_from_mesh(const WorldTransform& node, const Mesh& mesh) {
-    glm::dmat4 result = node.world_from_local;
-    result[3] = node.world_from_local * glm::dvec4(mesh.origin, 1.0);
-    return result;
+Geometry geometry_of(const Registry& registry, Entity entity, const MeshInstance& instance,
+                     const WorldTransform& world) {
+    const Mesh& mesh = *instance.mesh;
+    const auto* deformed = registry.try_get<Deformed>(entity);
+    if (deformed != nullptr && deformed->mesh != instance.mesh) deformed = nullptr;
+    Geometry geometry;
+    geometry.positions = deformed == nullptr ? mesh.positions : deformed->positions;
+    geometry.normals = deformed == nullptr ? mesh.normals : deformed->normals;
+    geometry.revision = deformed == nullptr ? 0 : deformed->revision;
+    geometry.world_from_positions = world.world_from_local;
+    geometry.world_from_positions[3] =
+        world.world_from_local *
+        glm::dvec4(deformed == nullptr ? mesh.origin : deformed->origin, 1.0);
+    return geometry;
 }
 
-void internal::include_mesh(Bounds& bounds, const WorldTransform& world, const Mesh& mesh) {
-    const glm::dmat4 matrix = world_from_mesh(world, mesh);
-    for (const glm::vec3& position : mesh.positions) {
-        bounds.include(glm::dvec3(matrix * glm::dvec4(position, 1.0)));
+void internal::include_positions(Bounds& bounds, const Geometry& geometry) {
+    for (const glm::vec3& position : geometry.positions) {
+        bounds.include(glm::dvec3(geometry.world_from_positions * glm::dvec4(position, 1.0)));
     }
 }
 

@@ -6,9 +6,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include <gnomon/scene/animation.hpp>
 #include <gnomon/scene/components.hpp>
 #include <gnomon/scene/mesh.hpp>
 #include <gnomon/scene/registry.hpp>
@@ -19,6 +21,7 @@ struct Scene {
     Registry registry;
     std::vector<Material>
         materials;  ///< at least one once anything is drawn: index 0 is the default
+    std::vector<Animation> animations;  ///< played by animate(), animation.hpp
     std::vector<std::string> messages;  ///< what a reader skipped or changed, one sentence each
 
     /// An entity with a name, a local and a world transform; the latter from the parent's as it is
@@ -41,12 +44,21 @@ struct Bounds {
     }
 };
 
+/// The vertices of an instance as they are drawn and cast shadows: its Deformed, where it has one
+/// of its mesh, else the mesh's own. The triangles are the mesh's either way.
+struct Geometry {
+    std::span<const glm::vec3> positions;
+    std::span<const glm::vec3> normals;
+    glm::dmat4 world_from_positions{1.0};
+    std::uint64_t revision = 0;  ///< Deformed::revision; 0: the mesh's own
+};
+
+/// The spans live as long as the mesh and the Deformed do and are not written.
+[[nodiscard]] Geometry geometry_of(const Registry& registry, Entity entity,
+                                   const MeshInstance& instance, const WorldTransform& world);
+
 /// World bounds of everything that has a mesh: exact over the vertices. Needs up-to-date world
 /// transforms.
 [[nodiscard]] Bounds world_bounds(const Scene& scene);
-
-/// The matrix that takes Mesh::positions to the world: the node's, with the mesh's own origin
-/// folded in.
-[[nodiscard]] glm::dmat4 world_from_mesh(const WorldTransform& node, const Mesh& mesh);
 
 }  // namespace gnomon::scene

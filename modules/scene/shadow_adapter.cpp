@@ -15,6 +15,19 @@ bool fills_depth(const Scene& scene, Entity entity, const Mesh& mesh) {
            });
 }
 
+Result<std::shared_ptr<const shadows::ShadowMesh>> build(const Mesh& mesh) {
+    shadows::MeshView view{.positions = std::as_bytes(std::span(mesh.positions)).data(),
+                           .vertex_count = mesh.positions.size(),
+                           .indices = mesh.indices};
+    // What may move apart is not welded, in no pose: the topology is the same in all of them.
+    if (mesh.deformation) view.identities = mesh.deformation->identities;
+    auto built = shadows::ShadowMesh::build(view);
+    if (!built) {
+        return fail(built.error().code, "Mesh \"" + mesh.name + "\": " + built.error().message);
+    }
+    return built;
+}
+
 }  // namespace
 
 std::optional<shadows::Light> shadow_light(const Registry& registry, Entity entity) {
@@ -41,16 +54,33 @@ Result<std::shared_ptr<const shadows::ShadowMesh>> ShadowAdapter::shadow_mesh(
     const std::shared_ptr<const Mesh>& mesh) {
     Known& known = known_[mesh.get()];
     if (known.shadow_mesh == nullptr || known.mesh.expired()) {
-        auto built = shadows::ShadowMesh::build(
-            {.positions = reinterpret_cast<const std::byte*>(mesh->positions.data()),
-             .vertex_count = mesh->positions.size(),
-             .indices = mesh->indices});
+        auto built = build(*mesh);
         if (!built) {
             known_.erase(mesh.get());
-            return fail(built.error().code,
-                        "Mesh \"" + mesh->name + "\": " + built.error().message);
+            return forward_error(built);
         }
         known = {mesh, std::move(*built)};
+    }
+    return known.shadow_mesh;
+}
+
+Result<std::shared_ptr<const shadows::ShadowMesh>> ShadowAdapter::deformed_mesh(
+    Entity entity, const std::shared_ptr<const Mesh>& mesh, const Geometry& geometry) {
+    KnownDeformed& known = deformed_[entity.key()];
+    known.used = true;
+    if (known.revision != geometry.revision || known.mesh != mesh) {
+        // The topology is that of the pose at rest, which all instances share.
+        const auto at_rest = shadow_mesh(mesh);
+        if (!at_rest) return forward_error(at_rest);
+        auto deformed = (*at_rest)->deformed(geometry.positions);
+        if (!deformed) {
+            return fail(deformed.error().code,
+                        "Mesh \"" + mesh->name + "\": " + deformed.error().message);
+        }
+        known = {.mesh = mesh,
+                 .shadow_mesh = std::move(*deformed),
+                 .revision = geometry.revision,
+                 .used = true};
     }
     return known.shadow_mesh;
 }
@@ -59,10 +89,13 @@ Result<std::vector<shadows::Caster>> ShadowAdapter::casters(const Scene& scene, 
                                                             shadows::NearCaps near_caps) {
     std::vector<shadows::Caster> casters;
     Status status;
+    for (auto& [key, known] : deformed_) known.used = false;
     scene.registry.each<Caster, MeshInstance, WorldTransform>([&](Entity entity, const Caster&,
                                                                   const MeshInstance& instance,
                                                                   const WorldTransform& transform) {
-        auto mesh = shadow_mesh(instance.mesh);
+        const Geometry geometry = geometry_of(scene.registry, entity, instance, transform);
+        auto mesh = geometry.revision == 0 ? shadow_mesh(instance.mesh)
+                                           : deformed_mesh(entity, instance.mesh, geometry);
         if (!mesh) {
             status = forward_error(mesh);
             return;
@@ -70,10 +103,11 @@ Result<std::vector<shadows::Caster>> ShadowAdapter::casters(const Scene& scene, 
         const bool drawn_whole = fills_depth(scene, entity, *instance.mesh);
         casters.push_back({.key = entity.key(),
                            .mesh = *mesh,
-                           .world_from_local = world_from_mesh(transform, *instance.mesh),
+                           .world_from_local = geometry.world_from_positions,
                            .in_depth_buffer = !culled && drawn_whole,
                            .near_caps = drawn_whole ? near_caps : shadows::NearCaps::Facing});
     });
+    std::erase_if(deformed_, [](const auto& entry) { return !entry.second.used; });
     if (!status) return forward_error(status);
     return casters;
 }

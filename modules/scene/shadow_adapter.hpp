@@ -21,10 +21,11 @@ namespace gnomon::scene {
 class ShadowAdapter {
 public:
     /// Submits every Caster and every light. Shadow meshes are made the first time a mesh is met
-    /// and kept while it lives. `culled`: back faces are not drawn, so depth-pass needs caps.
-    /// `near_caps` is for casters that are drawn whole; what is hidden or alpha-tested may have
-    /// something to be seen inside and keeps its caps towards the light. Fails when a mesh is not
-    /// acceptable to ShadowMesh::build. Cost: a look-up a caster.
+    /// and kept while it lives; those of deformed instances, from the very positions that are
+    /// drawn, whenever Deformed::revision changes. `culled`: back faces are not drawn, so
+    /// depth-pass needs caps. `near_caps` is for casters that are drawn whole; what is hidden or
+    /// alpha-tested may have something to be seen inside and keeps its caps towards the light.
+    /// Fails when a mesh is not acceptable to ShadowMesh::build. Cost: a look-up a caster.
     [[nodiscard]] Status submit(const Scene& scene, shadows::ShadowSystem::Frame& frame,
                                 bool culled = false,
                                 shadows::NearCaps near_caps = shadows::NearCaps::Facing);
@@ -35,16 +36,27 @@ public:
         const Scene& scene, bool culled = false,
         shadows::NearCaps near_caps = shadows::NearCaps::Facing);
 
-    /// The shadow mesh of a mesh: one for all its nodes.
+    /// The shadow mesh of a mesh: one for all its nodes, but those that deform. Where a mesh can
+    /// deform this is its topology, in the pose that it was bound in.
     [[nodiscard]] Result<std::shared_ptr<const shadows::ShadowMesh>> shadow_mesh(
         const std::shared_ptr<const Mesh>& mesh);
 
 private:
+    [[nodiscard]] Result<std::shared_ptr<const shadows::ShadowMesh>> deformed_mesh(
+        Entity entity, const std::shared_ptr<const Mesh>& mesh, const Geometry& geometry);
+
     struct Known {
         std::weak_ptr<const Mesh> mesh;  // tells a new mesh at an old address apart
         std::shared_ptr<const shadows::ShadowMesh> shadow_mesh;
     };
+    struct KnownDeformed {
+        std::shared_ptr<const Mesh> mesh;
+        std::shared_ptr<const shadows::ShadowMesh> shadow_mesh;
+        std::uint64_t revision = 0;
+        bool used = true;  // by the casters() at work
+    };
     std::unordered_map<const Mesh*, Known> known_;
+    std::unordered_map<std::uint64_t, KnownDeformed> deformed_;  // by entity
 };
 
 }  // namespace gnomon::scene

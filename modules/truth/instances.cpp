@@ -13,9 +13,10 @@ std::vector<Instance> instances_of(const scene::Scene& scene) {
             const bool casts = registry.has<scene::Caster>(entity);
             const bool receives = registry.has<scene::Receiver>(entity);
             if (instance.mesh == nullptr || (!casts && !receives)) return;
-            instances.push_back({.positions = instance.mesh->positions,
+            const scene::Geometry geometry = scene::geometry_of(registry, entity, instance, pose);
+            instances.push_back({.positions = geometry.positions,
                                  .indices = instance.mesh->indices,
-                                 .world_from_local = scene::world_from_mesh(pose, *instance.mesh),
+                                 .world_from_local = geometry.world_from_positions,
                                  .casts = casts,
                                  .receives = receives});
         });

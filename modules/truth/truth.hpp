@@ -152,7 +152,8 @@ private:
 /// pixels.
 [[nodiscard]] Judgement judge(const Picture& truth, std::span<const std::uint8_t> mask);
 
-/// The meshes of a scene: casts where there is a Caster, receives where there is a Receiver.
+/// The meshes of a scene, deformed where they are: casts where there is a Caster, receives where
+/// there is a Receiver.
 [[nodiscard]] std::vector<Instance> instances_of(const scene::Scene& scene);
 
 }  // namespace gnomon::truth

@@ -121,10 +121,12 @@ private:
         const glm::dvec3 eye(glm::inverse(view.view_from_world)[3]);
         std::vector<std::byte> bytes;
         setting_.scene.registry.each<scene::Receiver, scene::MeshInstance, scene::WorldTransform>(
-            [&](scene::Entity, const scene::Receiver&, const scene::MeshInstance& instance,
+            [&](scene::Entity entity, const scene::Receiver&, const scene::MeshInstance& instance,
                 const scene::WorldTransform& transform) {
                 const scene::Mesh& mesh = *instance.mesh;
-                const glm::dmat4 world = scene::world_from_mesh(transform, mesh);
+                const scene::Geometry geometry =
+                    scene::geometry_of(setting_.scene.registry, entity, instance, transform);
+                const glm::dmat4& world = geometry.world_from_positions;
                 glm::dmat4 from_eye = world;
                 from_eye[3] -= glm::dvec4(eye, 0.0);
                 DrawUniforms u;
@@ -136,7 +138,7 @@ private:
                 bytes.resize(bytes.size() + stride);
                 std::memcpy(bytes.data() + bytes.size() - stride, &u, sizeof u);
                 drawn_.push_back(
-                    {buffer(std::as_bytes(std::span(mesh.positions)), gpu::BufferUsage::Vertex),
+                    {buffer(std::as_bytes(geometry.positions), gpu::BufferUsage::Vertex),
                      buffer(std::as_bytes(std::span(mesh.indices)), gpu::BufferUsage::Index),
                      static_cast<std::uint32_t>(mesh.indices.size())});
             });

@@ -111,8 +111,12 @@ TEST(Scene, world_bounds_are_exact_and_use_the_meshes_origin) {
     const Bounds bounds = world_bounds(scene);
     EXPECT_EQ(bounds.min, glm::dvec3(0.0));
     EXPECT_EQ(bounds.max, glm::dvec3(1.0, 2.0, 0.0));
-    const auto matrix = world_from_mesh(scene.registry.get<WorldTransform>(entity), *mesh);
-    EXPECT_EQ(matrix[3], glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    const Geometry geometry =
+        geometry_of(scene.registry, entity, scene.registry.get<MeshInstance>(entity),
+                    scene.registry.get<WorldTransform>(entity));
+    EXPECT_EQ(geometry.positions.data(), mesh->positions.data());
+    EXPECT_EQ(geometry.revision, 0U);
+    EXPECT_EQ(geometry.world_from_positions[3], glm::dvec4(0.0, 0.0, 0.0, 1.0));
     EXPECT_TRUE(world_bounds(Scene{}).empty());
     EXPECT_EQ(world_bounds(Scene{}).diagonal(), 0.0);
 }

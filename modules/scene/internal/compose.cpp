@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "internal/compose.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -46,6 +47,31 @@ private:
     std::map<const Mesh*, std::shared_ptr<const Mesh>> copies_;
 };
 
+void copy_instance(const Registry& from, Entity source, Registry& into, Entity target,
+                   MeshCopies& meshes) {
+    const auto* instance = from.try_get<MeshInstance>(source);
+    if (instance == nullptr) return;
+    into.emplace<MeshInstance>(target, meshes.of(instance->mesh));
+    copy_component<MorphWeights>(from, source, into, target);
+    const auto* deformed = from.try_get<Deformed>(source);
+    if (deformed == nullptr || deformed->mesh != instance->mesh) return;
+    // The same numbers, so the same revision.
+    into.emplace<Deformed>(target, *deformed).mesh = meshes.of(instance->mesh);
+}
+
+void append_animations(Scene& into, const Scene& from,
+                       const std::map<std::uint32_t, Entity>& copies) {
+    std::uint32_t model = 0;
+    for (const Animation& known : into.animations) model = std::max(model, known.model + 1);
+    for (Animation animation : from.animations) {
+        animation.model += model;
+        for (AnimationChannel& channel : animation.channels) {
+            channel.target = copies.at(channel.target.index);
+        }
+        into.animations.push_back(std::move(animation));
+    }
+}
+
 }  // namespace
 
 std::uint32_t add_material(Scene& scene, Material material) {
@@ -89,8 +115,11 @@ Entity append_scene(Scene& into, const Scene& from, std::string name, const Loca
         if (const auto* parent = from.registry.try_get<Parent>(source)) {
             into.registry.emplace<Parent>(target, copies.at(parent->value.index));
         }
-        if (const auto* instance = from.registry.try_get<MeshInstance>(source)) {
-            into.registry.emplace<MeshInstance>(target, meshes.of(instance->mesh));
+        copy_instance(from.registry, source, into.registry, target, meshes);
+        if (const auto* skin = from.registry.try_get<Skin>(source)) {
+            Skin copy = *skin;
+            for (Entity& joint : copy.joints) joint = copies.at(joint.index);
+            into.registry.emplace<Skin>(target, std::move(copy));
         }
         if (drawn.casts) copy_component<Caster>(from.registry, source, into.registry, target);
         if (drawn.receives) copy_component<Receiver>(from.registry, source, into.registry, target);
@@ -99,6 +128,7 @@ Entity append_scene(Scene& into, const Scene& from, std::string name, const Loca
         copy_component<DirectionalLight>(from.registry, source, into.registry, target);
         copy_component<Camera>(from.registry, source, into.registry, target);
     });
+    append_animations(into, from, copies);
     update_world_transforms(into.registry);
     return root;
 }
@@ -125,7 +155,7 @@ Bounds bounds_below(const Scene& scene, Entity root) {
     scene.registry.each<MeshInstance, WorldTransform>(
         [&](Entity entity, const MeshInstance& instance, const WorldTransform& world) {
             if (!instance.mesh || !below(entity)) return;
-            include_mesh(bounds, world, *instance.mesh);
+            include_positions(bounds, geometry_of(scene.registry, entity, instance, world));
         });
     return bounds;
 }

@@ -195,6 +195,27 @@ void check_material(const JsonPlace& root, const JsonPlace& material) {
     static_cast<void>(find_extension(material, "KHR_materials_unlit"));
 }
 
+/// Morph targets: as many deltas as the primitive has vertices.
+void check_targets(const JsonPlace& root, const JsonPlace& targets, std::uint64_t vertex_count) {
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const JsonPlace target = targets.at(i).object();
+        for (const auto& item : target.value().items()) {
+            const JsonPlace reference = target.member(item.key());
+            const bool is_read = item.key() == "POSITION" || item.key() == "NORMAL";
+            if (!is_read) {
+                check_reference(root, reference, "accessors");
+                continue;
+            }
+            const std::uint64_t count =
+                check_accessor_kind(root, reference, "VEC3", {5126, 5120, 5122});
+            if (count != vertex_count) {
+                reference.refuse(fmt::format("has {} elements, but the primitive has {} vertices",
+                                             count, vertex_count));
+            }
+        }
+    }
+}
+
 void check_primitive(const JsonPlace& root, const JsonPlace& primitive) {
     if (const auto mode = primitive.find("mode")) static_cast<void>(mode->whole(0, 6));
     if (const auto material = primitive.find("material")) {
@@ -230,27 +251,38 @@ void check_primitive(const JsonPlace& root, const JsonPlace& primitive) {
     check("POSITION", "VEC3", {5126, 5120, 5121, 5122, 5123});
     check("NORMAL", "VEC3", {5126, 5120, 5122});
     check("TEXCOORD_0", "VEC2", {5126, 5120, 5121, 5122, 5123});
-    for (const char* name : {"JOINTS_0", "JOINTS_1"}) check(name, "VEC4", {5121, 5123});
-    for (const char* name : {"WEIGHTS_0", "WEIGHTS_1"}) check(name, "VEC4", {5126, 5121, 5123});
-    if (const auto targets = primitive.find("targets")) {
-        targets->array();
-        for (std::size_t i = 0; i < targets->size(); ++i) {
-            const JsonPlace target = targets->at(i).object();
-            for (const auto& item : target.value().items()) {
-                check_reference(root, target.member(item.key()), "accessors");
-            }
+    for (const auto& item : attributes.value().items()) {
+        const JsonPlace reference = attributes.member(item.key());
+        if (item.key().starts_with("JOINTS_")) {
+            check_accessor_kind(root, reference, "VEC4", {5121, 5123});
+        } else if (item.key().starts_with("WEIGHTS_")) {
+            check_accessor_kind(root, reference, "VEC4", {5126, 5121, 5123});
         }
     }
+    if (const auto targets = primitive.find("targets")) {
+        check_targets(root, targets->array(), vertex_count.value_or(0));
+    }
+}
+
+std::size_t target_count(const JsonPlace& primitive) {
+    const auto targets = primitive.find("targets");
+    return targets && targets->value().is_array() ? targets->size() : 0;
 }
 
 void check_mesh(const JsonPlace& root, const JsonPlace& mesh) {
     const JsonPlace primitives = mesh.member("primitives").array();
+    const std::size_t targets = morph_target_count(mesh);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         check_primitive(root, primitives.at(i).object());
+        const std::size_t its_targets = target_count(primitives.at(i));
+        if (its_targets != targets) {
+            primitives.at(i).refuse(
+                fmt::format("has {} morph targets, but the mesh's first "
+                            "primitive has {}",
+                            its_targets, targets));
+        }
     }
-    if (const auto weights = mesh.find("weights")) {
-        static_cast<void>(weights->array().numbers(weights->size()));
-    }
+    if (const auto weights = mesh.find("weights")) check_morph_weights(*weights, targets);
 }
 
 }  // namespace
@@ -267,6 +299,20 @@ std::vector<JsonPlace> elements_of(const JsonPlace& root, const std::string& arr
         if (const auto extensions = result.back().find("extensions")) extensions->object();
     }
     return result;
+}
+
+std::size_t morph_target_count(const JsonPlace& mesh) {
+    const auto primitives = mesh.find("primitives");
+    if (!primitives || !primitives->value().is_array() || primitives->size() == 0) return 0;
+    return target_count(primitives->at(0));
+}
+
+void check_morph_weights(const JsonPlace& weights, std::size_t targets) {
+    static_cast<void>(weights.array());
+    if (weights.size() != targets) {
+        weights.must_be(fmt::format("one number for each of the mesh's {} morph targets", targets));
+    }
+    static_cast<void>(weights.numbers(targets));
 }
 
 std::size_t check_reference(const JsonPlace& root, const JsonPlace& place,

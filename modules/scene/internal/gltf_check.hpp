@@ -24,6 +24,10 @@ void check_node_graph(const JsonPlace& root);
 /// Refused unless `place` is the index of an element of that top-level array.
 std::size_t check_reference(const JsonPlace& root, const JsonPlace& place,
                             const std::string& array);
+/// How many morph targets a checked mesh has: as many in each of its primitives.
+[[nodiscard]] std::size_t morph_target_count(const JsonPlace& mesh);
+/// Refused unless it is an array of as many numbers.
+void check_morph_weights(const JsonPlace& weights, std::size_t targets);
 /// place.extensions.NAME, when there.
 [[nodiscard]] std::optional<JsonPlace> find_extension(const JsonPlace& place,
                                                       const std::string& name);

@@ -125,7 +125,11 @@ void check_node(const JsonPlace& root, const JsonPlace& node) {
         if (matrix) rotation->refuse("stands beside a matrix, but only one of them may be there");
     }
     if (const auto weights = node.find("weights")) {
-        static_cast<void>(weights->array().numbers(weights->size()));
+        const auto mesh = node.find("mesh");
+        if (mesh) {
+            check_morph_weights(*weights, morph_target_count(root.member("meshes").at(
+                                              check_reference(root, *mesh, "meshes"))));
+        }
     }
     if (const auto light = find_extension(node, "KHR_lights_punctual")) {
         const auto lights = find_extension(root, "KHR_lights_punctual");

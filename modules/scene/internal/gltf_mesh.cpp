@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "internal/gltf_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -64,36 +65,42 @@ public:
         mesh_.name = source_.name;
     }
 
-    BuiltMesh build() {
+    std::shared_ptr<const Mesh> build() {
+        prepare_deformation();
         for (std::size_t i = 0; i < source_.primitives.size(); ++i) {
             add_primitive(source_.primitives[i], fmt::format("{}.primitives[{}]", place_, i));
         }
-        BuiltMesh result;
-        for (const auto& primitive : source_.primitives) {
-            if (!primitive.targets.empty()) result.has_morph_targets = true;
-        }
         if (mesh_.indices.empty()) {
             message("has no triangles and is not drawn");
-            return result;
+            return nullptr;
         }
-        if (const std::size_t count = repair_normals(mesh_); count > 0) {
+        if (const std::size_t count = repair_normals(mesh_.normals, mesh_.positions, mesh_.indices);
+            count > 0) {
             message(
                 fmt::format("had {} normals that are zero or not finite; they were made from "
                             "the faces",
                             count));
         }
         if (!any_texcoords_) mesh_.texcoords.clear();
-        if (any_influences_) result.influences = std::move(influences_);
         rebase_far_mesh(mesh_);
-        result.mesh = std::make_shared<const Mesh>(std::move(mesh_));
-        return result;
+        add_deformation();
+        return std::make_shared<const Mesh>(std::move(mesh_));
     }
 
 private:
+    /// JOINTS_n and WEIGHTS_n.
+    struct InfluenceSet {
+        AccessorView joints, weights;
+    };
+    struct Target {
+        std::optional<AccessorView> position, normal;
+    };
     /// A primitive's vertex data, where the file has it.
     struct Source {
         AccessorView position;
-        std::optional<AccessorView> normal, texcoord, joints_0, joints_1, weights_0, weights_1;
+        std::optional<AccessorView> normal, texcoord;
+        std::vector<InfluenceSet> influences;
+        std::vector<Target> targets;
         std::string place;
     };
 
@@ -118,13 +125,15 @@ private:
         const Source source{*std::move(position),
                             attribute(model, primitive, "NORMAL"),
                             attribute(model, primitive, "TEXCOORD_0"),
-                            attribute(model, primitive, "JOINTS_0"),
-                            attribute(model, primitive, "JOINTS_1"),
-                            attribute(model, primitive, "WEIGHTS_0"),
-                            attribute(model, primitive, "WEIGHTS_1"),
+                            influence_sets(primitive),
+                            targets_of(primitive),
                             place};
         const std::vector<std::uint32_t> corners =
             triangulate(read_indices(primitive, source), mode);
+        // At most this many vertices are new; each has numbers besides its position.
+        const std::size_t vertices =
+            source.normal ? std::min(corners.size(), source.position.count()) : corners.size();
+        reader_.spend(vertices * (8 * influence_set_count_ + 2 * source.targets.size()), place);
         const auto first = static_cast<std::uint32_t>(mesh_.indices.size());
         if (source.normal) {
             add_shared(source, corners, vertices_of(primitive));
@@ -189,29 +198,108 @@ private:
                         static_cast<float>(source.texcoord->get(i, 1))};
         }
         mesh_.texcoords.push_back(texcoord);
-        if (with_influences_) influences_.push_back(read_influence(source, i));
+        add_influences(source, i);
+        add_deltas(source, i);
         return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
     }
 
-    Influence read_influence(const Source& source, std::size_t i) {
-        Influence influence;
-        const auto read = [&](const std::optional<AccessorView>& joints,
-                              const std::optional<AccessorView>& weights, std::size_t first) {
-            if (!joints || !weights) return;
-            any_influences_ = true;
-            for (std::size_t k = 0; k < 4; ++k) {
-                const auto weight = static_cast<float>(weights->get(i, k));
-                influence.joints[first + k] = static_cast<std::uint32_t>(joints->get(i, k));
-                influence.weights[first + k] = std::isfinite(weight) ? weight : 0.0F;
+    [[nodiscard]] std::vector<InfluenceSet> influence_sets(
+        const tinygltf::Primitive& primitive) const {
+        std::vector<InfluenceSet> sets;
+        if (!with_influences_) return sets;
+        for (std::size_t n = 0;; ++n) {
+            auto joints = attribute(reader_.model_, primitive, fmt::format("JOINTS_{}", n).c_str());
+            auto weights =
+                attribute(reader_.model_, primitive, fmt::format("WEIGHTS_{}", n).c_str());
+            if (!joints || !weights) return sets;
+            sets.push_back({*std::move(joints), *std::move(weights)});
+        }
+    }
+
+    [[nodiscard]] std::vector<Target> targets_of(const tinygltf::Primitive& primitive) const {
+        std::vector<Target> targets;
+        for (const auto& attributes : primitive.targets) {
+            const auto view = [&](const char* name) -> std::optional<AccessorView> {
+                const auto found = attributes.find(name);
+                if (found == attributes.end()) return std::nullopt;
+                return AccessorView(reader_.model_, found->second);
+            };
+            targets.push_back({view("POSITION"), view("NORMAL")});
+        }
+        return targets;
+    }
+
+    /// What all primitives together have: a vertex has as many influences and deltas as any other.
+    void prepare_deformation() {
+        std::size_t target_count = 0;
+        for (const auto& primitive : source_.primitives) {
+            influence_set_count_ = std::max(influence_set_count_, influence_sets(primitive).size());
+            target_count = std::max(target_count, primitive.targets.size());
+        }
+        deformation_.influences_per_vertex = 4 * influence_set_count_;
+        deformation_.targets.resize(target_count);
+        has_deltas_.resize(target_count);
+        for (const auto& primitive : source_.primitives) {
+            for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+                has_deltas_[t].positions |= primitive.targets[t].contains("POSITION");
+                has_deltas_[t].normals |= primitive.targets[t].contains("NORMAL");
             }
-        };
-        read(source.joints_0, source.weights_0, 0);
-        read(source.joints_1, source.weights_1, 4);
-        return influence;
+        }
+    }
+
+    void add_influences(const Source& source, std::size_t i) {
+        for (std::size_t n = 0; n < influence_set_count_; ++n) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const bool is_there = n < source.influences.size();
+                deformation_.joints.push_back(
+                    is_there ? static_cast<std::uint32_t>(source.influences[n].joints.get(i, k))
+                             : 0);
+                const float weight =
+                    is_there ? static_cast<float>(source.influences[n].weights.get(i, k)) : 0.0F;
+                if (!std::isfinite(weight) || weight < 0.0F) {
+                    refuse_input(reader_.model_.file,
+                                 fmt::format("{}: component {} of WEIGHTS_{} {} is {}, but must be "
+                                             "finite and not negative",
+                                             source.place, k, n, i, weight));
+                }
+                deformation_.weights.push_back(weight);
+            }
+        }
+    }
+
+    void add_deltas(const Source& source, std::size_t i) {
+        for (std::size_t t = 0; t < deformation_.targets.size(); ++t) {
+            const auto read = [&](const std::optional<AccessorView>& view, const char* name) {
+                const glm::vec3 delta = view ? read_vec3(*view, i) : glm::vec3(0.0F);
+                if (!is_finite(delta)) {
+                    refuse_input(reader_.model_.file,
+                                 fmt::format("{}.targets[{}]: {} {} is ({}, {}, {}), but must be "
+                                             "finite",
+                                             source.place, t, name, i, delta.x, delta.y, delta.z));
+                }
+                return delta;
+            };
+            const Target& target = source.targets[t];
+            MorphTarget& into = deformation_.targets[t];
+            if (has_deltas_[t].positions)
+                into.positions.push_back(read(target.position, "POSITION"));
+            if (has_deltas_[t].normals) into.normals.push_back(read(target.normal, "NORMAL"));
+        }
+    }
+
+    void add_deformation() {
+        if (influence_set_count_ == 0 && deformation_.targets.empty()) return;
+        deformation_.default_weights = source_.weights;
+        auto made = make_mesh_deformation(mesh_, std::move(deformation_));
+        if (!made)
+            refuse_input(reader_.model_.file, fmt::format("{}: {}", place_, made.error().message));
+        mesh_.deformation = *std::move(made);
     }
 
     /// glTF's rule for primitives without normals: flat faces, which share no vertex.
     void add_flat(const Source& source, const std::vector<std::uint32_t>& corners) {
+        deformation_.flat.push_back({static_cast<std::uint32_t>(mesh_.positions.size()),
+                                     static_cast<std::uint32_t>(corners.size())});
         for (std::size_t i = 0; i < corners.size(); i += 3) {
             const std::uint32_t first = add_vertex(source, corners[i]);
             add_vertex(source, corners[i + 1]);
@@ -238,7 +326,7 @@ private:
 
     /// Primitives with the very same vertex data share their vertices. Unused vertices are dropped.
     VertexMap& vertices_of(const tinygltf::Primitive& primitive) {
-        return vertex_maps_[primitive.attributes];
+        return vertex_maps_[{primitive.attributes, primitive.targets}];
     }
 
     MeshReader& reader_;
@@ -246,10 +334,16 @@ private:
     std::string place_;
     bool with_influences_;
     Mesh mesh_;
-    std::vector<Influence> influences_;
-    std::map<std::map<std::string, int>, VertexMap> vertex_maps_;
+    using Attributes = std::map<std::string, int>;
+    std::map<std::pair<Attributes, std::vector<Attributes>>, VertexMap> vertex_maps_;
+    MeshDeformationSource deformation_;
+    struct HasDeltas {
+        bool positions = false;
+        bool normals = false;
+    };
+    std::vector<HasDeltas> has_deltas_;  // by target: in any primitive
+    std::size_t influence_set_count_ = 0;
     bool any_texcoords_ = false;
-    bool any_influences_ = false;
 };
 
 MeshReader::MeshReader(const GltfModel& model, std::vector<std::string>& messages)
@@ -257,7 +351,7 @@ MeshReader::MeshReader(const GltfModel& model, std::vector<std::string>& message
     for (const auto& buffer : model.buffers) limit_ += 16 * buffer.size();
 }
 
-const BuiltMesh& MeshReader::read(int mesh, bool with_influences) {
+const std::shared_ptr<const Mesh>& MeshReader::read(int mesh, bool with_influences) {
     const auto found = built_.find(mesh);
     if (found != built_.end()) return found->second;
     return built_[mesh] = MeshBuilder(*this, mesh, with_influences).build();

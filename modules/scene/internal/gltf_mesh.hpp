@@ -3,7 +3,6 @@
 // One mesh of a glTF file, all its primitives together.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -16,25 +15,14 @@
 
 namespace gnomon::scene::internal {
 
-/// Which joints move a vertex, and how much: up to two sets of four; the rest have weight 0.
-struct Influence {
-    std::array<std::uint32_t, 8> joints{};
-    std::array<float, 8> weights{};
-};
-
-struct BuiltMesh {
-    std::shared_ptr<const Mesh> mesh;   ///< null when there is not one triangle
-    std::vector<Influence> influences;  ///< one per position; empty unless asked for and there
-    bool has_morph_targets = false;
-};
-
 /// Reads each mesh once, when it is first asked for. Throws InputError.
 class MeshReader {
 public:
     MeshReader(const GltfModel& model, std::vector<std::string>& messages);
 
-    /// `with_influences` must be the same in every call for one mesh.
-    const BuiltMesh& read(int mesh, bool with_influences);
+    /// Null when there is not one triangle. `with_influences`: joints and weights are read as well;
+    /// it must be the same in every call for one mesh.
+    const std::shared_ptr<const Mesh>& read(int mesh, bool with_influences);
 
 private:
     /// Many primitives may share one accessor, so a small file can describe a huge scene: what is
@@ -44,7 +32,7 @@ private:
     friend class MeshBuilder;
     const GltfModel& model_;
     std::vector<std::string>& messages_;
-    std::map<int, BuiltMesh> built_;
+    std::map<int, std::shared_ptr<const Mesh>> built_;
     std::size_t limit_ = 0;
     std::size_t spent_ = 0;
 };

@@ -50,9 +50,9 @@ GltfModel load_model(GltfFile file) {
     const JsonPlace root(file.json, file.name);
 
     GltfModel result;
+    result.animations = check_animations(root);
     result.file = file.name;
     result.folder = file.folder;
-    result.has_animations = root.has("animations");
     for (const auto& buffer : elements_of(root, "buffers")) {
         result.buffers.push_back(load_buffer(file, buffer));
     }

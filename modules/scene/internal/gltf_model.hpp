@@ -11,6 +11,7 @@
 
 #include <tiny_gltf.h>
 
+#include "internal/gltf_animation.hpp"
 #include "internal/gltf_file.hpp"
 #include "internal/gltf_format.hpp"
 
@@ -28,7 +29,7 @@ struct GltfModel {
     tinygltf::Model model;  ///< without buffers, images and animations
     std::vector<std::vector<std::byte>> buffers;
     std::vector<ImageSource> images;
-    bool has_animations = false;
+    std::vector<AnimationSource> animations;
 };
 
 /// Checks the file, loads its buffers and hands the rest to tinygltf. Throws InputError.

@@ -2,10 +2,12 @@
 #include "internal/gltf_nodes.hpp"
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
+#include <gnomon/scene/deform.hpp>
 #include <gnomon/scene/transforms.hpp>
 
 #include "internal/gltf_material.hpp"
@@ -17,6 +19,9 @@ namespace gnomon::scene::internal {
 namespace {
 
 constexpr std::size_t most_entities = 4'000'000;
+/// Each instance that deforms has vertices of its own, and a small file may have any number of
+/// them.
+constexpr std::size_t most_deformed_numbers = std::size_t{1} << 25U;
 
 glm::dvec3 vec3_or(const std::vector<double>& values, double otherwise) {
     return values.size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : glm::dvec3(otherwise);
@@ -46,10 +51,13 @@ LocalTransform local_of(const tinygltf::Node& node) {
     return local;
 }
 
-class SceneBuilder {
+class SceneBuilder : AnimationTargets {
 public:
     SceneBuilder(const GltfModel& model, const GltfOptions& options)
-        : model_(model), meshes_(model, scene_.messages), entities_(model.model.nodes.size()) {
+        : model_(model),
+          meshes_(model, scene_.messages),
+          entities_(model.model.nodes.size()),
+          mesh_entities_(model.model.nodes.size()) {
         scene_.materials = read_materials(model, scene_.messages);
         for (const auto& node : model.model.nodes) {
             if (node.mesh >= 0 && node.skin >= 0) skinned_meshes_.insert(node.mesh);
@@ -58,6 +66,12 @@ public:
         update_world_transforms(scene_.registry);
         for (const int node : skinned_nodes_) add_skinned(node);
         check_transforms();
+        scene_.animations = read_animations(model, *this);
+        if (const Status deformed = deform(scene_); !deformed) {
+            std::string what = deformed.error().message;
+            if (what.ends_with('.')) what.pop_back();
+            refuse_input(model.file, what);
+        }
         add_messages();
     }
 
@@ -137,7 +151,30 @@ private:
         return scene_.create_node(std::move(name), local, parent);
     }
 
-    void add_mesh_instance(Entity entity, std::shared_ptr<const Mesh> mesh) {
+    [[nodiscard]] std::vector<Entity> of(std::size_t node, AnimationPath path) const override {
+        if (path == AnimationPath::Weights) return mesh_entities_[node];
+        if (!entities_[node]) return {};
+        return {*entities_[node]};
+    }
+
+    void spend(std::size_t numbers, int node) {
+        deformed_numbers_ += numbers;
+        if (deformed_numbers_ > most_deformed_numbers) {
+            refuse_input(model_.file,
+                         fmt::format("nodes[{}] brings the vertices of deforming instances and the "
+                                     "numbers of their joints to {}, but at most {} are kept",
+                                     node, deformed_numbers_, most_deformed_numbers));
+        }
+    }
+
+    void add_mesh_instance(int node, Entity entity, std::shared_ptr<const Mesh> mesh) {
+        mesh_entities_[static_cast<std::size_t>(node)].push_back(entity);
+        if (mesh->deformation) spend(mesh->positions.size(), node);
+        if (mesh->deformation && !mesh->deformation->targets.empty()) {
+            const std::vector<double>& weights = source(node).weights;
+            scene_.registry.emplace<MorphWeights>(
+                entity, weights.empty() ? mesh->deformation->default_weights : weights);
+        }
         scene_.registry.emplace<MeshInstance>(entity, std::move(mesh));
         scene_.registry.emplace<Caster>(entity);
         scene_.registry.emplace<Receiver>(entity);
@@ -154,16 +191,15 @@ private:
         if (node.mesh < 0) return entity;
 
         const bool is_skinned_mesh = skinned_meshes_.count(node.mesh) != 0;
-        const BuiltMesh& built = meshes_.read(node.mesh, is_skinned_mesh);
-        has_morph_targets_ = has_morph_targets_ || built.has_morph_targets;
-        if (!built.mesh) return entity;
-        if (node.skin >= 0 && !built.influences.empty()) {
+        const std::shared_ptr<const Mesh>& mesh = meshes_.read(node.mesh, is_skinned_mesh);
+        if (!mesh) return entity;
+        if (node.skin >= 0 && mesh->deformation && mesh->deformation->is_skinned()) {
             skinned_nodes_.push_back(index);
         } else if (const auto instancing = node.extensions.find("EXT_mesh_gpu_instancing");
                    instancing != node.extensions.end()) {
-            add_instances(entity, index, instancing->second.Get("attributes"), built.mesh);
+            add_instances(entity, index, instancing->second.Get("attributes"), mesh);
         } else {
-            add_mesh_instance(entity, built.mesh);
+            add_mesh_instance(index, entity, mesh);
         }
         return entity;
     }
@@ -192,7 +228,8 @@ private:
                                             rotation->get(i, 2), rotation->get(i, 3));
             }
             if (scale) local.scale = {scale->get(i, 0), scale->get(i, 1), scale->get(i, 2)};
-            add_mesh_instance(create(fmt::format("{} instance {}", name, i), local, parent), mesh);
+            const Entity entity = create(fmt::format("{} instance {}", name, i), local, parent);
+            add_mesh_instance(node, entity, mesh);
         }
     }
 
@@ -227,24 +264,31 @@ private:
         }
     }
 
-    /// The posed mesh hangs under nothing: its vertices are already in the scene's space.
+    /// An entity of its own: the transform of a skinned mesh's node does not count, joints alone
+    /// place its vertices.
     void add_skinned(int index) {
         const tinygltf::Node& node = source(index);
-        const tinygltf::Skin& skin = model_.model.skins[static_cast<std::size_t>(node.skin)];
-        std::vector<glm::dmat4> matrices = inverse_bind_matrices(model_, skin);
-        for (std::size_t i = 0; i < matrices.size(); ++i) {
-            const auto& joint = entities_[static_cast<std::size_t>(skin.joints[i])];
+        const tinygltf::Skin& source = model_.model.skins[static_cast<std::size_t>(node.skin)];
+        Skin skin;
+        for (std::size_t i = 0; i < source.joints.size(); ++i) {
+            const auto& joint = entities_[static_cast<std::size_t>(source.joints[i])];
             if (!joint) {
                 refuse_input(model_.file, fmt::format("skins[{}].joints[{}] is node {}, but that "
                                                       "is not in the scene that nodes[{}] is in",
-                                                      node.skin, i, skin.joints[i], index));
+                                                      node.skin, i, source.joints[i], index));
             }
-            matrices[i] =
-                scene_.registry.get<WorldTransform>(*joint).world_from_local * matrices[i];
+            skin.joints.push_back(*joint);
         }
-        const std::string place = fmt::format("nodes[{}]", index);
-        add_mesh_instance(create(name_of(index), {}, std::nullopt),
-                          pose_mesh(meshes_.read(node.mesh, true), matrices, model_, place));
+        auto& matrices = inverse_bind_matrices_[node.skin];
+        if (!matrices) {
+            matrices = std::make_shared<const std::vector<glm::dmat4>>(
+                inverse_bind_matrices(model_, source));
+        }
+        skin.inverse_bind_matrices = matrices;
+        const Entity entity = create(name_of(index), {}, std::nullopt);
+        spend(16 * skin.joints.size(), index);
+        scene_.registry.emplace<Skin>(entity, std::move(skin));
+        add_mesh_instance(index, entity, meshes_.read(node.mesh, true));
     }
 
     /// Finite numbers in a file can still multiply to infinity along a chain of nodes.
@@ -264,25 +308,27 @@ private:
     }
 
     void add_messages() {
-        if (!skinned_nodes_.empty()) {
+        for (std::size_t i = 0; i < model_.animations.size(); ++i) {
+            const std::size_t left_out = model_.animations[i].left_out;
+            if (left_out == 0) continue;
             message(
-                fmt::format("{} skinned meshes are in their rest pose: joints as the nodes "
-                            "stand, times the inverse bind matrices; the transforms of their "
-                            "own nodes are ignored, as glTF says",
-                            skinned_nodes_.size()));
+                fmt::format("animations[{}] has {} channels that are left out: they have no "
+                            "node, a path that only an extension knows, or a node with a "
+                            "matrix",
+                            i, left_out));
         }
-        if (has_morph_targets_) message("morph targets are not applied");
-        if (model_.has_animations) message("animations are not played; nodes stand as written");
         if (scene_.registry.count<MeshInstance>() == 0) message("the scene has no triangles");
     }
 
     const GltfModel& model_;
     Scene scene_;
     MeshReader meshes_;
-    std::vector<std::optional<Entity>> entities_;  // by node
+    std::vector<std::optional<Entity>> entities_;     // by node
+    std::vector<std::vector<Entity>> mesh_entities_;  // by node: what carries its mesh
     std::set<int> skinned_meshes_;
     std::vector<int> skinned_nodes_;
-    bool has_morph_targets_ = false;
+    std::size_t deformed_numbers_ = 0;
+    std::map<int, std::shared_ptr<const std::vector<glm::dmat4>>> inverse_bind_matrices_;
 };
 
 }  // namespace

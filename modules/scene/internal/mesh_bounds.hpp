@@ -5,7 +5,7 @@
 
 namespace gnomon::scene::internal {
 
-/// Widens `bounds` by every vertex of the mesh in world space.
-void include_mesh(Bounds& bounds, const WorldTransform& world, const Mesh& mesh);
+/// Widens `bounds` by every vertex in world space.
+void include_positions(Bounds& bounds, const Geometry& geometry);
 
 }  // namespace gnomon::scene::internal

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "internal/mesh_normals.hpp"
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace gnomon::scene::internal {
 namespace {
@@ -23,14 +25,15 @@ glm::vec3 face_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
     return unit_or_up(area_vector(a, b, c));
 }
 
-std::size_t repair_normals(Mesh& mesh) {
-    std::vector<bool> bad(mesh.normals.size(), false);
+std::size_t repair_normals(std::span<glm::vec3> normals, std::span<const glm::vec3> positions,
+                           std::span<const std::uint32_t> indices) {
+    std::vector<bool> bad(normals.size(), false);
     std::size_t bad_count = 0;
-    for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
-        const glm::dvec3 normal = mesh.normals[i];
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        const glm::dvec3 normal = normals[i];
         const double length = glm::length(normal);
         if (length > 1e-20 && std::isfinite(length)) {
-            mesh.normals[i] = normal / length;
+            normals[i] = normal / length;
         } else {
             bad[i] = true;
             ++bad_count;
@@ -38,16 +41,15 @@ std::size_t repair_normals(Mesh& mesh) {
     }
     if (bad_count == 0) return 0;
 
-    std::vector<glm::dvec3> sums(mesh.normals.size(), glm::dvec3(0.0));
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const std::array<std::uint32_t, 3> corners{mesh.indices[i], mesh.indices[i + 1],
-                                                   mesh.indices[i + 2]};
-        const glm::dvec3 area = area_vector(mesh.positions[corners[0]], mesh.positions[corners[1]],
-                                            mesh.positions[corners[2]]);
+    std::vector<glm::dvec3> sums(normals.size(), glm::dvec3(0.0));
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const std::array<std::uint32_t, 3> corners{indices[i], indices[i + 1], indices[i + 2]};
+        const glm::dvec3 area =
+            area_vector(positions[corners[0]], positions[corners[1]], positions[corners[2]]);
         for (const std::uint32_t corner : corners) sums[corner] += area;
     }
-    for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
-        if (bad[i]) mesh.normals[i] = unit_or_up(sums[i]);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        if (bad[i]) normals[i] = unit_or_up(sums[i]);
     }
     return bad_count;
 }

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
-#include <gnomon/scene/mesh.hpp>
+#include <glm/glm.hpp>
 
 namespace gnomon::scene::internal {
 
@@ -14,6 +16,7 @@ namespace gnomon::scene::internal {
 
 /// Makes every normal a unit vector; one that is zero or not finite becomes the area-weighted mean
 /// of its faces' normals. Returns how many were replaced so.
-std::size_t repair_normals(Mesh& mesh);
+std::size_t repair_normals(std::span<glm::vec3> normals, std::span<const glm::vec3> positions,
+                           std::span<const std::uint32_t> indices);
 
 }  // namespace gnomon::scene::internal

@@ -22,7 +22,24 @@ bool is_exact(const Mesh& mesh, int axis, double origin) {
     });
 }
 
+/// A power of two at least as large.
+double grid_of(double diagonal) { return std::exp2(std::ceil(std::log2(diagonal))); }
+
 }  // namespace
+
+glm::dvec3 near_origin(const Bounds& bounds) {
+    glm::dvec3 origin(0.0);
+    const double diagonal = bounds.diagonal();
+    if (!(diagonal > 0.0) || !std::isfinite(diagonal)) return origin;
+    const double grid = grid_of(diagonal);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double center = bounds.center()[axis];
+        if (std::abs(center) > far_in_diagonals * diagonal) {
+            origin[axis] = std::round(center / grid) * grid;
+        }
+    }
+    return origin;
+}
 
 void rebase_far_mesh(Mesh& mesh) {
     if (mesh.positions.empty()) return;
@@ -34,7 +51,7 @@ void rebase_far_mesh(Mesh& mesh) {
     }
     const double diagonal = glm::length(high - low);
     if (!(diagonal > 0.0)) return;
-    const double grid = std::exp2(std::ceil(std::log2(diagonal)));
+    const double grid = grid_of(diagonal);
     for (int axis = 0; axis < 3; ++axis) {
         const double center = (low[axis] + high[axis]) * 0.5;
         if (std::abs(center) <= far_in_diagonals * diagonal) continue;
