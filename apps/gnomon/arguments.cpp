@@ -139,6 +139,13 @@ Result<Motion> parse_motion(std::string_view text) {
         motion.degrees = *degrees;
         return motion;
     }
+    if (kind == "time" && !value.empty()) {
+        motion.kind = MotionKind::Time;
+        const auto seconds = parse_number(value, "--animate time", -1e9, 1e9);
+        if (!seconds) return forward_error(seconds);
+        motion.seconds = *seconds;
+        return motion;
+    }
     if (kind == "casters" && !value.empty()) {
         if (const auto count = whole_number<std::uint32_t>(value)) {
             motion.kind = MotionKind::Casters;
@@ -146,16 +153,9 @@ Result<Motion> parse_motion(std::string_view text) {
             return motion;
         }
     }
-    if (kind == "play" && !value.empty()) {
-        motion.kind = MotionKind::Play;
-        const auto fps = parse_number(value, "--animate play", 1e-3, 1e6);
-        if (!fps) return forward_error(fps);
-        motion.fps = *fps;
-        return motion;
-    }
     return fail(ErrorCode::InvalidInput,
                 fmt::format("--animate: \"{}\" is none of static, camera, light:DEG, casters:K, "
-                            "play:FPS.",
+                            "time:SECONDS.",
                             text));
 }
 

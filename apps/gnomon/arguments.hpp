@@ -33,12 +33,12 @@ struct LightArgument {
     std::optional<double> range_m = std::nullopt;
 };
 
-enum class MotionKind { Static, Camera, Light, Casters, Play };
+enum class MotionKind { Static, Camera, Light, Casters, Time };
 struct Motion {
     MotionKind kind = MotionKind::Static;
     double degrees = 1.0;       ///< per frame
     std::uint32_t casters = 0;  ///< how many turn
-    double fps = 30.0;          ///< frames that a second of the file's animation takes
+    double seconds = 0.0;       ///< that the scene's animations advance per frame
 };
 
 [[nodiscard]] Result<double> parse_number(std::string_view text, std::string_view what);

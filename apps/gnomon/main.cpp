@@ -62,6 +62,7 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
         "  gnomon render engine.glb --light dir:-1,-2,-1 --out engine.png --stencil engine --stats "
         "engine.json\n"
         "  gnomon render engine.glb --backend vk --show volumes,silhouettes --out volumes.png\n"
+        "  gnomon render fox.glb --animation Run --time 0.5 --out fox.png\n"
         "  gnomon render city.glb --frames 100 --animate light:0.5 --stats city.json",
         fmt::join(scene::builtin_scene_names(), ", ")));
     render->add_option("scene", o.scene, "The scene to draw")->type_name("SCENE");
@@ -173,19 +174,24 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
     render->add_option("--frames", o.frames, "How many frames; the last one is written")
         ->check(CLI::Range(1, 1000000));
     render
-        ->add_option_function<std::string>("--animate", parsed_into(o.motion, cli::parse_motion),
-                                           "static, camera, light:DEG a frame, casters:K, play:FPS")
+        ->add_option_function<std::string>(
+            "--animate", parsed_into(o.motion, cli::parse_motion),
+            "static, camera, light:DEG a frame, casters:K, or time:SECONDS a frame: "
+            "the scene's animations, from --time on")
         ->type_name("MOTION");
     render
         ->add_option_function<std::string>(
             "--time", parsed_into(o.time_s, number("--time", -1e9, 1e9)),
-            "Evaluate the file's first animation there; with play:FPS the time of the first frame")
+            "Pose the scene as its animations have it at this time; they loop. All frames have "
+            "this pose, unless --animate time:SECONDS moves on from it")
         ->type_name("SECONDS");
     render
-        ->add_option_function<std::string>(
-            "--animation", [&o](const std::string& text) { o.animation = text; },
-            "Which animation of the file --time and play:FPS are about")
-        ->type_name("NAME|N");
+        ->add_option(
+            "--animation", o.animation,
+            "Which animation is played, at --time or at 0: its name, or its number from 0; "
+            "default the first of each model")
+        ->check(named)
+        ->type_name("NAME|INDEX");
     render
         ->add_option_function<std::string>(
             "--near",

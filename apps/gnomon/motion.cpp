@@ -19,7 +19,7 @@ glm::dmat4 turn_about(const glm::dvec3& point, double degrees) {
 }  // namespace
 
 Animator::Animator(const Shot& shot, const Motion& motion)
-    : motion_(motion), camera_start_(shot.world_from_camera) {
+    : motion_(motion), camera_start_(shot.world_from_camera), time_start_s_(shot.time_s) {
     const scene::Registry& registry = shot.scene.registry;
     const auto keep = [&](scene::Entity entity, const auto&) {
         if (const auto* transform = registry.try_get<scene::WorldTransform>(entity)) {
@@ -38,7 +38,10 @@ Animator::Animator(const Shot& shot, const Motion& motion)
     }
 }
 
-void Animator::apply(std::uint32_t frame, Shot& shot) const {
+Status Animator::apply(std::uint32_t frame, Shot& shot) const {
+    if (motion_.kind == MotionKind::Time) {
+        return pose_at(shot, time_start_s_ + motion_.seconds * frame);
+    }
     // Whole turns are taken out first: the product stays exact enough for any number.
     const double degrees = std::fmod(motion_.degrees, 360.0) * frame;
     const glm::dvec3 center = shot.bounds.empty() ? glm::dvec3(0.0) : shot.bounds.center();
@@ -52,6 +55,7 @@ void Animator::apply(std::uint32_t frame, Shot& shot) const {
         shot.scene.registry.get<scene::WorldTransform>(start.entity).world_from_local =
             turn_about(pivot, degrees) * start.world;
     }
+    return {};
 }
 
 }  // namespace gnomon::cli

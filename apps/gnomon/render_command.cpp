@@ -96,10 +96,9 @@ Status Run::read_masks(std::size_t light) {
 }
 
 Status Run::frame(std::uint32_t index, bool last) {
-    animator_->apply(index, shot_);
-    if (options_.motion.kind == MotionKind::Play && index > 0) {
-        const double time_s = shot_.start_s + index / options_.motion.fps;
-        if (const Status played = play(shot_, time_s, options_.scene); !played) return played;
+    if (const Status moved = animator_->apply(index, shot_); !moved) {
+        return fail(moved.error().code,
+                    fmt::format("{}: {}", options_.scene, moved.error().message));
     }
     const auto start = Clock::now();
     const gpu::DeviceCounters before = device_.counters();

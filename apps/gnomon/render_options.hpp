@@ -41,8 +41,8 @@ struct RenderOptions {
     render::Overlays overlays = {};
     std::uint32_t frames = 1;
     Motion motion = {};
-    std::optional<double> time_s = std::nullopt;          ///< of the file's animations
-    std::optional<std::string> animation = std::nullopt;  ///< by name or number; none: the first
+    std::optional<double> time_s = std::nullopt;          ///< none: as the file's nodes stand
+    std::optional<std::string> animation = std::nullopt;  ///< name or number; none: the first
     std::optional<double> near_m = std::nullopt;
     bool quiet = false;
 };

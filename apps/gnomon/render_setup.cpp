@@ -6,6 +6,7 @@
 #include <fnmatch.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <gnomon/render/camera.hpp>
@@ -109,41 +110,41 @@ Status use_camera_of_file(const RenderOptions& options, Shot& shot) {
     return {};
 }
 
-// Nothing is played unless somebody asks: a file is drawn as it stands.
-Status choose_animations(const RenderOptions& options, Shot& shot) {
-    const bool plays = options.motion.kind == MotionKind::Play;
-    if (!options.time_s && !options.animation && !plays) return {};
-    shot.start_s = options.time_s.value_or(0.0);
-    shot.animations = scene::find_animations(shot.scene, options.animation);
-    if (!shot.animations.empty()) return {};
-    if (!options.animation) {
-        shot.scene.messages.push_back(
-            fmt::format("{} has no animation: nothing is played.", options.scene));
+// Poses the scene at --time. A scene without animations stands, and says so.
+Status play(const RenderOptions& options, Shot& shot) {
+    const bool plays =
+        options.time_s || options.animation || options.motion.kind == MotionKind::Time;
+    if (!plays) return {};
+    if (shot.scene.animations.empty()) {
+        shot.scene.messages.push_back(fmt::format(
+            "{}: the scene has no animations; it is drawn as it stands.", options.scene));
         return {};
     }
-    std::string names;
-    for (const scene::Animation& animation : shot.scene.animations) {
-        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", animation.name);
+    shot.animations = scene::find_animations(shot.scene, options.animation);
+    if (shot.animations.empty()) {
+        std::vector<std::string> known;
+        for (const scene::Animation& animation : shot.scene.animations) {
+            known.push_back(fmt::format("{} \"{}\"", animation.place, animation.name));
+        }
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("--animation: {} has no animation \"{}\"; it has {}.",
+                                options.scene, *options.animation, fmt::join(known, ", ")));
     }
-    return fail(ErrorCode::InvalidInput,
-                fmt::format("--animation: {} has none that is named or numbered \"{}\"; {}.",
-                            options.scene, *options.animation,
-                            names.empty() ? "it has no animations" : "there are " + names));
+    return pose_at(shot, options.time_s.value_or(0.0));
 }
 
 }  // namespace
 
-Status play(Shot& shot, double time_s, const std::string& name) {
-    const auto named = [&](const Status& status) {
-        return fail(status.error().code, fmt::format("{}: {}", name, status.error().message));
-    };
+Status pose_at(Shot& shot, double time_s) {
+    if (shot.animations.empty()) return {};
     for (const std::size_t animation : shot.animations) {
-        const Status moved = scene::animate(shot.scene, animation, time_s);
-        if (!moved) return named(moved);
+        if (const Status played = scene::animate(shot.scene, animation, time_s); !played) {
+            return played;
+        }
     }
     scene::update_world_transforms(shot.scene.registry);
-    const Status deformed = scene::deform(shot.scene);
-    return deformed ? deformed : named(deformed);
+    shot.time_s = time_s;
+    return scene::deform(shot.scene);
 }
 
 Result<Shot> make_shot(const RenderOptions& options) {
@@ -152,14 +153,9 @@ Result<Shot> make_shot(const RenderOptions& options) {
     Shot shot;
     shot.scene = std::move(*loaded);
     scene::Registry& registry = shot.scene.registry;
-    if (const Status chosen = choose_animations(options, shot); !chosen) {
-        return forward_error(chosen);
-    }
-    if (!shot.animations.empty()) {
-        const Status played = play(shot, shot.start_s, options.scene);
-        if (!played) return forward_error(played);
-    }
     scene::update_world_transforms(registry);
+    // Before all that follows from where things stand: lights, framing, near plane.
+    if (const Status posed = play(options, shot); !posed) return forward_error(posed);
     shot.bounds = scene::world_bounds(shot.scene);
     const double diagonal = shot.bounds.diagonal();
     set_lights(shot.scene, options.lights, diagonal > 0.0 ? diagonal : 1.0);

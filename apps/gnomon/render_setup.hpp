@@ -15,13 +15,13 @@ struct Shot {
     scene::Camera camera;
     glm::dmat4 world_from_camera{1.0};
     double near_m = 0.01;
-    std::vector<std::size_t> animations = {};  ///< that are played, by place in the scene
-    double start_s = 0.0;                      ///< their time in the first frame
+    std::vector<std::size_t> animations;  ///< those of the scene that are played; none: it stands
+    double time_s = 0.0;                  ///< at which it is posed
 };
 
-/// Brings the scene to what its animations say at `time_s`: poses, skins and morphs. `name` stands
-/// for the file in messages.
-[[nodiscard]] Status play(Shot& shot, double time_s, const std::string& name);
+/// Poses everything that the shot's animations move. Does nothing where there are none. Fails as
+/// scene::deform does.
+[[nodiscard]] Status pose_at(Shot& shot, double time_s);
 
 [[nodiscard]] Result<Shot> make_shot(const RenderOptions& options);
 

@@ -76,7 +76,7 @@ TEST(Arguments, a_light_is_a_point_or_a_direction) {
     }
 }
 
-TEST(Arguments, a_motion_is_one_of_four) {
+TEST(Arguments, a_motion_is_one_of_five) {
     EXPECT_EQ(parse_motion("static").value().kind, MotionKind::Static);
     EXPECT_EQ(parse_motion("camera").value().kind, MotionKind::Camera);
     const Motion light = parse_motion("light:-0.5").value();
@@ -85,11 +85,15 @@ TEST(Arguments, a_motion_is_one_of_four) {
     const Motion casters = parse_motion("casters:12").value();
     EXPECT_EQ(casters.kind, MotionKind::Casters);
     EXPECT_EQ(casters.casters, 12U);
-    for (const char* text : {"", "spin", "light", "light:", "casters", "casters:", "casters:-1",
-                             "casters:1.5", "casters:4294967296", "static:1", "camera:2", ":5"}) {
+    const Motion time = parse_motion("time:-0.25").value();
+    EXPECT_EQ(time.kind, MotionKind::Time);
+    EXPECT_DOUBLE_EQ(time.seconds, -0.25);
+    for (const char* text :
+         {"", "spin", "light", "light:", "time", "time:", "casters", "casters:", "casters:-1",
+          "casters:1.5", "casters:4294967296", "static:1", "camera:2", ":5"}) {
         expect_refused(parse_motion(text), text);
     }
-    for (const char* text : {"light:nan", "light:1e999", "light:10deg"})
+    for (const char* text : {"light:nan", "light:1e999", "light:10deg", "time:nan", "time:1e10"})
         EXPECT_FALSE(parse_motion(text)) << text;
 }
 

@@ -38,7 +38,8 @@ TEST_F(Usage, help_and_version_end_well) {
                                "--silhouette", "--show",
                                "--frames",     "--animate",
                                "--near",       "--list-silhouettes",
-                               "--caps"}) {
+                               "--caps",       "--time",
+                               "--animation"}) {
         EXPECT_THAT(help, HasSubstr(option));
     }
 }
@@ -67,8 +68,7 @@ TEST_F(Usage, unknown_words_are_refused_by_name) {
     EXPECT_THAT(files(), IsEmpty());
 }
 
-TEST_F(Usage, options_of_later_work_are_refused_like_any_other) {
-    expect_refused(knot({"--time", "1"}), {"--time"});
+TEST_F(Usage, commands_of_later_work_are_refused_like_any_other) {
     for (const char* command : {"profile", "report", "view"})
         expect_refused({command, "builtin:knot"}, {command});
 }
@@ -112,6 +112,10 @@ TEST_F(Usage, values_out_of_range_are_refused_by_option) {
                                      {"--animate", "spin"},
                                      {"--animate", "light:"},
                                      {"--animate", "casters:x"},
+                                     {"--animate", "time:x"},
+                                     {"--time", "nan"},
+                                     {"--time", "soon"},
+                                     {"--animation", ""},
                                      {"--near", "0"},
                                      {"--near", "-1"},
                                      {"--near", "nan"},
