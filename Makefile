@@ -54,7 +54,7 @@ soak: build/build.ninja build/asan-full/build.ninja build/tsan/build.ninja ## th
 	@JOBS=$(JOBS) scripts/fuzz 720
 
 # How long the strategies are compared; all the rest takes some minutes more.
-BENCH_SECONDS ?= 300
+BENCH_SECONDS ?= 240
 
 bench: build ## run the benchmarks, and write bench/results/*.json and the tables of docs/performance.md
 	@build/bin/gnomon-bench --paired --seconds $(BENCH_SECONDS) --out bench/results/strategies.json

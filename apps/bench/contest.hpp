@@ -10,8 +10,9 @@
 // every time, but a processor that was taken away comes back the next time.
 // Where ten frames of all would take longer than there is time, one repeat has to do.
 //
-// Turns are blocks of a few frames, so that a detector which touches little is not measured by the
-// cache misses that the others' megabytes cost it, and each block begins with another detector.
+// Turns are blocks of a few frames in an order that is drawn anew for each block. The first frame
+// of a turn counts for the worst frame and the mean alone: what it finds in the caches is what the
+// one before left there, which may be the same tables or megabytes of others.
 #pragma once
 
 #include <array>
@@ -21,6 +22,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gnomon/shadows/detector.hpp>
@@ -36,13 +38,16 @@ struct Contestant {
     std::function<std::unique_ptr<shadows::SilhouetteDetector>()> create;
     /// Its answer has to be that of the others.
     bool compared = true;
+    /// It keeps nothing that depends on the lights it saw: one detector serves all repeats, so that
+    /// what it makes of the mesh is made once.
+    bool is_memoryless = false;
 };
 
 /// Times are those of one frame; a clock's own cost is taken off.
 struct Measured {
     std::string name;
-    Spread time_ns;
-    double mean_ns = 0.0;
+    Spread time_ns;         ///< without the first frame of each turn
+    double mean_ns = 0.0;   ///< of all frames but the first two
     double worst_ns = 0.0;  ///< of all frames but the first two, each the best of its repeats
     double first_ns = 0.0;  ///< of the first frame, which makes what the strategy keeps
     // Means of what the detector says of its frames (shadows::DetectionStats), the first two left
@@ -56,6 +61,8 @@ struct Measured {
     /// How many times as long the other took, block by block.
     std::optional<Spread> faster_than_brute_force = std::nullopt;
     std::optional<Spread> faster_than_simd = std::nullopt;
+    /// Of "auto" alone: the same against each of what it chooses from.
+    std::vector<std::pair<std::string, Spread>> faster_than_parts = {};
 };
 
 struct Contest {

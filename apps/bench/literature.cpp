@@ -81,19 +81,24 @@ bool is_of_the_literature(std::string_view strategy) {
     return std::ranges::find(names, strategy) != names.end();
 }
 
+bool is_memoryless(const shadows::SilhouetteStrategy& strategy) {
+    return !strategy.keeps_state || is_of_the_literature(strategy.name);
+}
+
 std::vector<Contestant> with_volumes() {
     std::vector<Contestant> result;
     for (const shadows::SilhouetteStrategy& strategy : shadows::silhouette_strategies()) {
-        result.push_back({std::string(strategy.name), [create = strategy.create] {
-                              return std::make_unique<WithVolume>(create());
-                          }});
+        result.push_back(
+            {std::string(strategy.name),
+             [create = strategy.create] { return std::make_unique<WithVolume>(create()); }, true,
+             is_memoryless(strategy)});
     }
     return result;
 }
 
 Contestant without_silhouette() {
     return {"none", [] { return std::make_unique<WithVolume>(std::make_unique<NoSilhouette>()); },
-            false};
+            false, true};
 }
 
 }  // namespace gnomon::bench

@@ -15,6 +15,9 @@ namespace gnomon::bench {
 /// nothing is learned from running them on every motion.
 [[nodiscard]] bool is_of_the_literature(std::string_view strategy);
 
+/// Whether its detector keeps nothing that depends on the lights it saw.
+[[nodiscard]] bool is_memoryless(const shadows::SilhouetteStrategy& strategy);
+
 /// Every strategy, with the volume built from what it finds.
 [[nodiscard]] std::vector<Contestant> with_volumes();
 /// "none": looks for no silhouette, but builds a volume that extrudes each edge of each face that

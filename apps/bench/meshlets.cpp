@@ -268,7 +268,7 @@ private:
 }  // namespace
 
 std::optional<Contestant> meshlets() {
-    return Contestant{"meshoptimizer", [] { return std::make_unique<Meshlets>(); }};
+    return Contestant{"meshoptimizer", [] { return std::make_unique<Meshlets>(); }, true, true};
 }
 
 }  // namespace gnomon::bench

@@ -2,6 +2,7 @@
 #include "paired.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -39,12 +40,19 @@ constexpr std::size_t largest_for_literature = 1'200'000;
 // brute_force is in each.
 enum class Field { Fast, Literature, Quadratic };
 
+// Four digits are more than the clock is good for.
+double rounded(double value) {
+    if (value == 0.0 || !std::isfinite(value)) return value;
+    const double unit = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(value))));
+    return std::round(value * unit) / unit;
+}
+
 Json to_json(const Spread& spread) {
-    return {{"median", spread.median},
-            {"lower_quartile", spread.lower_quartile},
-            {"upper_quartile", spread.upper_quartile},
-            {"low", spread.low},
-            {"high", spread.high}};
+    return {{"median", rounded(spread.median)},
+            {"lower_quartile", rounded(spread.lower_quartile)},
+            {"upper_quartile", rounded(spread.upper_quartile)},
+            {"low", rounded(spread.low)},
+            {"high", rounded(spread.high)}};
 }
 
 Json to_json(const std::optional<Spread>& spread) {
@@ -59,22 +67,25 @@ Json to_json(const Contest& contest) {
             if (m.choices[i] == 0) continue;
             choices[std::string(to_string(static_cast<shadows::Choice>(i)))] = m.choices[i];
         }
+        Json parts = Json::object();
+        for (const auto& [name, spread] : m.faster_than_parts) parts[name] = to_json(spread);
         strategies.push_back({{"name", m.name},
                               {"time_ns", to_json(m.time_ns)},
-                              {"mean_ns", m.mean_ns},
-                              {"worst_ns", m.worst_ns},
-                              {"first_ns", m.first_ns},
-                              {"faces_tested", m.faces_tested},
-                              {"edges_tested", m.edges_tested},
-                              {"bytes_touched", m.bytes_touched},
+                              {"mean_ns", rounded(m.mean_ns)},
+                              {"worst_ns", rounded(m.worst_ns)},
+                              {"first_ns", rounded(m.first_ns)},
+                              {"faces_tested", rounded(m.faces_tested)},
+                              {"edges_tested", rounded(m.edges_tested)},
+                              {"bytes_touched", rounded(m.bytes_touched)},
                               {"memory_bytes", m.memory_bytes},
                               {"choices", std::move(choices)},
+                              {"faster_than_parts", std::move(parts)},
                               {"faster_than_brute_force", to_json(m.faster_than_brute_force)},
                               {"faster_than_simd", to_json(m.faster_than_simd)}});
     }
     return {{"frames", contest.frames},
             {"frames_per_block", contest.frames_per_block},
-            {"silhouette_edges", contest.silhouette_edges},
+            {"silhouette_edges", rounded(contest.silhouette_edges)},
             {"floor_ns", to_json(contest.floor_ns)},
             {"strategies", std::move(strategies)}};
 }
@@ -91,10 +102,31 @@ std::vector<Contestant> field(Field wanted, std::vector<Contestant> all) {
     return all;
 }
 
+// A line a row of each table: smaller than one a number, and differences can be read.
+void write_by_rows(const Json& file, std::ostream& stream) {
+    char separator = '{';
+    for (const auto& [key, value] : file.items()) {
+        stream << separator << "\n" << Json(key).dump() << ": ";
+        separator = ',';
+        if (!value.is_array() || value.empty()) {
+            stream << value.dump();
+            continue;
+        }
+        char between = '[';
+        for (const Json& row : value) {
+            stream << between << "\n " << row.dump();
+            between = ',';
+        }
+        stream << "\n]";
+    }
+    stream << "\n}\n";
+}
+
 std::vector<Contestant> everyone() {
     std::vector<Contestant> result;
     for (const shadows::SilhouetteStrategy& strategy : shadows::silhouette_strategies()) {
-        result.push_back({std::string(strategy.name), strategy.create});
+        result.push_back(
+            {std::string(strategy.name), strategy.create, true, is_memoryless(strategy)});
     }
     if (const auto* automatic = shadows::find_strategy("auto")) {
         result.push_back({"auto", automatic->create});
@@ -113,18 +145,25 @@ public:
         const std::vector<Subject> meshes = wanted(subjects(options_.models, options_.quick));
         const std::vector<Subject> scenes = wanted(stand_ins(options_.quick));
         const std::vector<Motion> moves = motions(options_.quick);
-        const double contests = static_cast<double>(meshes.size() * (moves.size() + 1)) +
-                                4.0 * static_cast<double>(scenes.size());
+        double contests = 4.0 * static_cast<double>(scenes.size());
+        for (const Subject& subject : meshes) {
+            contests += subject.share * static_cast<double>(moves.size() + 1);
+        }
         const double seconds = options_.seconds / std::max(1.0, contests);
         for (const Subject& subject : meshes) {
             const Result<MeshPointer> mesh = build(subject);
             if (!mesh) return forward_error(mesh);
             for (const Motion& motion : moves) {
-                add("rows", subject, **mesh, motion, field(Field::Fast, everyone()), seconds);
+                std::vector<Contestant> fast = field(Field::Fast, everyone());
+                if (motion.kind != Motion::Kind::Jump) {  // what has no memory learns nothing else
+                    std::erase_if(fast,
+                                  [](const Contestant& c) { return c.name == "meshoptimizer"; });
+                }
+                add("rows", subject, **mesh, motion, fast, seconds * subject.share);
             }
             if ((*mesh)->faces().size() > largest_for_literature) continue;
             add("literature", subject, **mesh, point_jump, field(Field::Literature, everyone()),
-                seconds);
+                seconds * subject.share);
         }
         for (const Subject& subject : scenes) {
             const Result<MeshPointer> mesh = build(subject);
@@ -223,7 +262,7 @@ private:
         std::error_code ignored;  // the stream below says whether it worked
         std::filesystem::create_directories(options_.out.parent_path(), ignored);
         std::ofstream stream(options_.out);
-        stream << file.dump(1) << '\n';
+        write_by_rows(file, stream);
         if (!stream.flush()) {
             return fail(ErrorCode::Io, "\"" + options_.out.string() + "\" cannot be written.");
         }

@@ -188,7 +188,8 @@ std::vector<Subject> subjects(const std::filesystem::path& models, bool quick) {
         const std::uint32_t n = size.triangles;
         const auto add = [&](const char* family, scene::Mesh (*make)(std::uint32_t)) {
             result.push_back({std::string(family) + "-" + size.name, family,
-                              [=]() -> Result<scene::Mesh> { return make(n); }});
+                              [=]() -> Result<scene::Mesh> { return make(n); },
+                              1.0 + n / 500'000.0});
         };
         add("sphere", sphere);
         add("knot", knot);
@@ -208,7 +209,7 @@ std::vector<Subject> subjects(const std::filesystem::path& models, bool quick) {
           File{"hard/manifold-twin-7081-left.glb", "CAD"}}) {
         const std::filesystem::path path = models / file.path;
         if (quick || !std::filesystem::exists(path)) continue;
-        result.push_back({path.stem().string(), file.family, [path] { return load(path); }});
+        result.push_back({path.stem().string(), file.family, [path] { return load(path); }, 1.0});
     }
     return result;
 }

@@ -18,6 +18,7 @@ struct Subject {
     std::string name;
     std::string family;  ///< sphere, knot, noise, CAD, scan, prop, stand-in
     std::function<Result<scene::Mesh>()> make;
+    double share = 1.0;  ///< of the time to measure in: large meshes need more for as many frames
 };
 
 /// Spheres and torus knots of 1k to 4M triangles, a bumpy noise sphere, a part as CAD writes them;
