@@ -14,6 +14,7 @@ GlFormat to_gl(gpu::Format format) {
         case Format::Rgba8UnormSrgb: return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
         case Format::Rgba16Float: return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
         case Format::Rgba32Float: return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+        case Format::Rgba32Uint: return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT};
         case Format::Depth32Float: return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
         case Format::Depth24UnormStencil8:
             return {GL_DEPTH24_STENCIL8, GL_DEPTH_COMPONENT, GL_FLOAT};

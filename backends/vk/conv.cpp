@@ -23,6 +23,7 @@ VkFormat to_vk(gpu::Format format) {
         case gpu::Format::Rgba8UnormSrgb: return VK_FORMAT_R8G8B8A8_SRGB;
         case gpu::Format::Rgba16Float: return VK_FORMAT_R16G16B16A16_SFLOAT;
         case gpu::Format::Rgba32Float: return VK_FORMAT_R32G32B32A32_SFLOAT;
+        case gpu::Format::Rgba32Uint: return VK_FORMAT_R32G32B32A32_UINT;
         case gpu::Format::Depth32Float: return VK_FORMAT_D32_SFLOAT;
         case gpu::Format::Depth24UnormStencil8: return VK_FORMAT_D24_UNORM_S8_UINT;
         case gpu::Format::Depth32FloatStencil8: return VK_FORMAT_D32_SFLOAT_S8_UINT;

@@ -19,6 +19,7 @@ enum class Format : std::uint8_t {
     Rgba8UnormSrgb,
     Rgba16Float,
     Rgba32Float,
+    Rgba32Uint,
     Depth32Float,
     Depth24UnormStencil8,
     Depth32FloatStencil8,
@@ -31,7 +32,7 @@ enum class Format : std::uint8_t {
 }
 /// True for formats a shader reads as unsigned integers.
 [[nodiscard]] constexpr bool is_uint(Format f) {
-    return f == Format::R8Uint || f == Format::R32Uint;
+    return f == Format::R8Uint || f == Format::R32Uint || f == Format::Rgba32Uint;
 }
 
 /// Bytes of one texel of a colour format, as write_texture and read_texture pack it. 0 for
@@ -45,7 +46,8 @@ enum class Format : std::uint8_t {
         case Format::Rgba8Unorm:
         case Format::Rgba8UnormSrgb: return 4;
         case Format::Rgba16Float: return 8;
-        case Format::Rgba32Float: return 16;
+        case Format::Rgba32Float:
+        case Format::Rgba32Uint: return 16;
         default: return 0;
     }
 }

@@ -82,7 +82,7 @@ TEST_P(Queue, TexturesStartAsZero) {
     for (const gpu::Format format :
          {gpu::Format::R8Unorm, gpu::Format::R8Uint, gpu::Format::R32Uint, gpu::Format::R32Float,
           gpu::Format::Rgba8Unorm, gpu::Format::Rgba8UnormSrgb, gpu::Format::Rgba16Float,
-          gpu::Format::Rgba32Float}) {
+          gpu::Format::Rgba32Float, gpu::Format::Rgba32Uint}) {
         for (int round = 0; round < 3; ++round) {
             const auto texture = must(device().create_texture(
                 {.label = "zero",

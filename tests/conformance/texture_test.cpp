@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Textures: what is written comes back, and what a shader reads of it.
+#include <cmath>
 #include <gnomon_shaders/conformance.hpp>
 
 #include "tests/conformance/painting.hpp"
@@ -47,7 +48,7 @@ TEST_P(Textures, EveryColorFormatComesBackAsWritten) {
     for (const gpu::Format format :
          {gpu::Format::R8Unorm, gpu::Format::R8Uint, gpu::Format::R32Uint, gpu::Format::R32Float,
           gpu::Format::Rgba8Unorm, gpu::Format::Rgba8UnormSrgb, gpu::Format::Rgba16Float,
-          gpu::Format::Rgba32Float}) {
+          gpu::Format::Rgba32Float, gpu::Format::Rgba32Uint}) {
         // an odd width, so that padded rows would show
         const auto texture = make(7, 5, format);
         std::vector<std::uint8_t> bytes(std::size_t{7} * 5 * gpu::texel_bytes(format));
@@ -136,6 +137,52 @@ TEST_P(Textures, IntegersAreFetched) {
                        .target_format = gpu::Format::R32Uint,
                        .width = 2}));
         EXPECT_EQ(values, (std::vector<std::uint32_t>{7, 250}));
+    }
+}
+
+// Written again between two submissions: each sees what was written last.
+TEST_P(Textures, AVertexShaderFetchesTexels) {
+    const auto texture = make(2, 1, gpu::Format::Rgba32Uint);
+    const auto layout = must(
+        device().create_bind_group_layout({.label = "fetching",
+                                           .entries = {{.binding = 1,
+                                                        .visibility = gpu::ShaderStage::Vertex,
+                                                        .type = gpu::BindingType::SampledTexture,
+                                                        .sample_type = gpu::SampleType::Uint}}}));
+    const auto group = must(device().create_bind_group(
+        {.label = "fetching", .layout = layout, .entries = {{.binding = 1, .texture = texture}}}));
+    const auto vertex = make_shader(device(), gpu::ShaderStage::Vertex, shaders::fetch_vert);
+    const auto fragment = make_shader(device(), gpu::ShaderStage::Fragment, shaders::flat_frag);
+    const auto target = must(device().create_texture(
+        {.label = "target",
+         .width = 1,
+         .height = 1,
+         .format = gpu::Format::Rgba32Float,
+         .usage = gpu::TextureUsage::RenderAttachment | gpu::TextureUsage::CopySrc}));
+    const auto pipeline =
+        must(device().create_render_pipeline({.label = "fetching",
+                                              .bind_group_layouts = {layout},
+                                              .vertex = vertex,
+                                              .fragment = fragment,
+                                              .targets = {{.format = gpu::Format::Rgba32Float}}}));
+    for (const float scale : {1.0F, -3.0F}) {
+        const std::vector<float> texels{9,           9, 9, 9, scale, scale * 2.5F, scale * 0.125F,
+                                        scale * 1024};
+        write(texture, 0, texels);
+        gpu::CommandEncoder encoder = device().create_command_encoder("fetching");
+        {
+            gpu::RenderPassEncoder pass = encoder.begin_render_pass(
+                {.label = "fetching",
+                 .color_attachments = {{.texture = target, .load_op = gpu::LoadOp::Clear}}});
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, group);
+            pass.draw(3);
+        }
+        must(device().submit(must(encoder.finish())));
+        const auto colors = texels_as<std::array<float, 4>>(must(device().read_texture(target)));
+        for (std::size_t c = 0; c < 4; ++c) {
+            EXPECT_NEAR(colors[0][c], texels[4 + c], 1e-5F * std::abs(texels[4 + c]));
+        }
     }
 }
 

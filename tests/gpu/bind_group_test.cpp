@@ -149,9 +149,13 @@ TEST_F(BindGroup, Textures) {
 }
 
 TEST_F(BindGroup, SampleTypeFitsFormatAndAspect) {
-    const auto all_formats = {Format::R8Unorm,      Format::R8Uint,
-                              Format::R32Uint,      Format::Rgba16Float,
-                              Format::Depth32Float, Format::Depth32FloatStencil8};
+    const auto all_formats = {Format::R8Unorm,
+                              Format::R8Uint,
+                              Format::R32Uint,
+                              Format::Rgba32Uint,
+                              Format::Rgba16Float,
+                              Format::Depth32Float,
+                              Format::Depth32FloatStencil8};
     for (const Format format : all_formats) {
         const Texture texture = take(w_.device.create_texture(target_desc("t", format)));
         for (const SampleType type : {SampleType::Float, SampleType::Uint, SampleType::Depth}) {

@@ -102,6 +102,8 @@ TEST_F(NullBackend, ColorIsClearedInEveryFormat) {
                                           0x3400}));
     EXPECT_EQ(read<float>(clear(Format::Rgba32Float, color)),
               (std::vector<float>{0.5, 2, -1, 0.25, 0.5, 2, -1, 0.25}));
+    EXPECT_EQ(read<std::uint32_t>(clear(Format::Rgba32Uint, {.r = 1, .g = 2, .b = 3, .a = 4})),
+              (std::vector<std::uint32_t>{1, 2, 3, 4, 1, 2, 3, 4}));
 }
 
 TEST_F(NullBackend, DepthAndStencilAreClearedApart) {

@@ -77,6 +77,7 @@ TEST_F(Pass, ColorAttachments) {
 TEST_F(Pass, IntegerClearValuesFitTheFormat) {
     const Texture byte = target("byte", Format::R8Uint);
     const Texture word = target("word", Format::R32Uint);
+    const Texture words = target("words", Format::Rgba32Uint);
     const auto clear = [](TextureId texture, double value) {
         return [texture, value](RenderPassDesc& d) {
             d.color_attachments = {
@@ -96,6 +97,12 @@ TEST_F(Pass, IntegerClearValuesFitTheFormat) {
                {clear(word, 4294967295.0), valid},
                {clear(word, 4294967296.0),
                 "The clear value (4294967296) of [Texture \"word\"] (R32Uint) is not within 0 and "
+                "4294967295."},
+               {[&](RenderPassDesc& d) {
+                    d.color_attachments = {
+                        {.texture = words, .load_op = LoadOp::Clear, .clear_value = {.a = -2}}};
+                },
+                "The clear value (-2) of [Texture \"words\"] (Rgba32Uint) is not within 0 and "
                 "4294967295."},
            });
 }

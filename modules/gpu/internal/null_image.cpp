@@ -53,6 +53,10 @@ Texel encode(Format format, const Color& c) {
         case Format::Rgba32Float:
             return pack(std::array{static_cast<float>(c.r), static_cast<float>(c.g),
                                    static_cast<float>(c.b), static_cast<float>(c.a)});
+        case Format::Rgba32Uint:
+            return pack(std::array{static_cast<std::uint32_t>(c.r), static_cast<std::uint32_t>(c.g),
+                                   static_cast<std::uint32_t>(c.b),
+                                   static_cast<std::uint32_t>(c.a)});
         default: return {};
     }
 }

@@ -2,7 +2,9 @@
 #include "internal/validate_passes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 
 namespace gnomon::gpu {
 
@@ -87,9 +89,12 @@ private:
                             to_text(texture->format), device_.name(attachment.texture));
         }
         if (attachment.load_op == LoadOp::Clear && is_uint(texture->format)) {
-            const double value = attachment.clear_value.r;
+            const auto& [r, g, b, a] = attachment.clear_value;
             const double largest = largest_uint(texture->format);
-            if (!(value >= 0.0 && value <= largest)) {
+            const std::size_t channels = texture->format == Format::Rgba32Uint ? 4 : 1;
+            const std::array values{r, g, b, a};
+            for (const double value : std::span(values).first(channels)) {
+                if (value >= 0.0 && value <= largest) continue;
                 violations_.add("The clear value ({}) of {} ({}) is not within 0 and {:.0f}.",
                                 value, device_.name(attachment.texture), to_text(texture->format),
                                 largest);

@@ -42,6 +42,7 @@ std::string_view to_text(Format format) {
         case Format::Rgba8UnormSrgb: return "Rgba8UnormSrgb";
         case Format::Rgba16Float: return "Rgba16Float";
         case Format::Rgba32Float: return "Rgba32Float";
+        case Format::Rgba32Uint: return "Rgba32Uint";
         case Format::Depth32Float: return "Depth32Float";
         case Format::Depth24UnormStencil8: return "Depth24UnormStencil8";
         case Format::Depth32FloatStencil8: return "Depth32FloatStencil8";
