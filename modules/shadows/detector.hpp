@@ -101,6 +101,14 @@ public:
     [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 };
 
+/// Who finds the silhouettes of pairs that edge quads can draw (edge_quads.hpp), and how.
+enum class QuadFacing : std::uint8_t {
+    None,      ///< the CPU, as for all other pairs
+    Uploaded,  ///< a vertex shader, from one exact bit a face that the CPU found
+    InShader,  ///< a vertex shader alone, in single precision: faces that are all but edge-on may
+               ///< come out either way
+};
+
 struct SilhouetteStrategy {
     std::string_view name;
     std::string_view summary;
@@ -108,6 +116,9 @@ struct SilhouetteStrategy {
     /// light wants one of its own. Otherwise one serves all in turn.
     bool keeps_state = false;
     std::unique_ptr<SilhouetteDetector> (*create)() = nullptr;
+    /// Other than None: ShadowSystem asks no detector for the pairs that it leaves to the GPU; the
+    /// detector is for the others.
+    QuadFacing quads = QuadFacing::None;
 };
 
 /// All strategies, by name; "auto" is not among them: it is the choice between them.
