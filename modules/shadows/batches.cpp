@@ -102,9 +102,8 @@ void Batching::make_pieces(std::uint32_t limit) {
         }
         std::vector<VolumePart>& parts = pair.more().parts;
         if (parts.empty()) {
-            for (LayerPart& part :
-                 split_volume(*drawn.caster->mesh, *drawn.volume,
-                              space_of(pair, *drawn.caster, light_), limit)) {
+            for (LayerPart& part : split_volume(*drawn.caster->mesh, *drawn.volume,
+                                                space_of(pair, *drawn.caster, light_), limit)) {
                 parts.push_back({std::make_shared<const Volume>(std::move(part.volume)),
                                  next_volume_revision(), part.layers});
             }
@@ -142,6 +141,10 @@ std::uint32_t Batching::distribute(std::uint32_t limit) {
 }
 
 }  // namespace
+
+bool fit_together(LightState& light, std::uint32_t limit, std::span<const DrawnPair> pairs) {
+    return Batching(light, pairs).most_together() <= limit;
+}
 
 std::uint32_t split_into_batches(LightState& light, std::uint32_t limit,
                                  std::span<const DrawnPair> pairs) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "internal/quad_pair.hpp"
 #include "internal/system_state.hpp"
 
 namespace gnomon::shadows {
@@ -37,7 +38,7 @@ Corners seen_by(const View& view) {
 // factor for a point light (the cap is the caster scaled about the light), metres per length of the
 // direction for a directional one.
 double finite_reach(PairState& pair, const CasterState& caster, const Light& light,
-                    const Volume& volume, const Corners& seen) {
+                    const Volume& volume, const QuadCasting* quads, const Corners& seen) {
     const glm::dvec3 l(light.position_world);
     if (light.position_world.w == 0.0) {
         const double length = glm::length(l);
@@ -54,7 +55,10 @@ double finite_reach(PairState& pair, const CasterState& caster, const Light& lig
     for (const auto& p : seen) farthest = std::max(farthest, glm::length(p - l));
     double& nearest = pair.more().nearest_face;
     if (nearest < 0.0) {
-        nearest = internal::nearest_face(volume, *caster.mesh, caster.pose.world_from_local, l);
+        const Volume caps =
+            quads != nullptr ? internal::casting_faces(*caster.mesh, *quads) : Volume{};
+        nearest = internal::nearest_face(quads != nullptr ? caps : volume, *caster.mesh,
+                                         caster.pose.world_from_local, l);
     }
     constexpr double most = 1e12;  // keeps single-precision coordinates finite
     const double reach = 1.01 * farthest / nearest;
@@ -94,6 +98,16 @@ const Volume* ShadowSystem::State::volume_of(const LightState& light, std::uint3
     return pair.extra != nullptr ? pair.extra->whole.get() : nullptr;
 }
 
+const QuadCasting* ShadowSystem::State::quads_of(const LightState& light,
+                                                 std::uint32_t caster) const {
+    const PairState& pair = light.pairs[caster];
+    if (pair.draw != no_draw) {
+        const VolumeDraw& draw = list.draws[light.first + pair.draw];
+        return draw.quads ? &*draw.quads : nullptr;
+    }
+    return pair.extra != nullptr ? pair.extra->whole_quads.get() : nullptr;
+}
+
 void ShadowSystem::State::gather_drawn(const LightState& light) {
     drawn.clear();
     for (const std::uint32_t c : casters.by_key()) {
@@ -103,7 +117,7 @@ void ShadowSystem::State::gather_drawn(const LightState& light) {
         const std::uint64_t revision = pair.draw != no_draw
                                            ? list.draws[light.first + pair.draw].revision
                                            : pair.extra->whole_revision;
-        drawn.push_back({c, &casters[c], volume, revision});
+        drawn.push_back({c, &casters[c], volume, revision, quads_of(light, c) != nullptr});
     }
 }
 
@@ -224,6 +238,10 @@ void ShadowSystem::State::make_draw(std::size_t at, LightState& light, const Pie
         draw.revision = pair.extra->whole_revision;
         if (light.pieces.empty()) {
             draw.volume = std::move(pair.extra->whole);
+            if (pair.extra->whole_quads != nullptr) {
+                draw.quads = std::move(*pair.extra->whole_quads);
+                pair.extra->whole_quads = nullptr;
+            }
             pair.release_idle_extra();
         } else {
             draw.volume = pair.extra->whole;
@@ -291,12 +309,16 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
         draw.mirrored = caster.pose.mirrored;
         draw.near_caps = !caster.in_depth_buffer;
         draw.reason = pair.reason;
+        if (draw.quads) draw.quads->light = internal::current_light(pair, light);
+        origin.quads = draw.quads.has_value();
     }
     const Volume& volume = light.pieces.empty() ? *draw.volume : *pair.extra->whole;
     if (all) origin.silhouette_edges = origin.first ? volume.silhouette_edges : 0;
     bool differs = all;
     if (all || !infinite) {
-        const double reach = infinite ? 0.0 : finite_reach(pair, caster, light.light, volume, seen);
+        const QuadCasting* quads = draw.quads ? &*draw.quads : nullptr;
+        const double reach =
+            infinite ? 0.0 : finite_reach(pair, caster, light.light, volume, quads, seen);
         place_far_vertices(draw, pair, light, infinite, reach);
         differs = true;
     }
@@ -316,6 +338,7 @@ void ShadowSystem::State::count_draws() {
     for (const DrawOrigin& origin : origins) {
         stats.silhouette_edges += origin.silhouette_edges;
         if (!origin.first) continue;
+        stats.quad_pairs += origin.quads ? 1 : 0;
         ++(origin.technique == Technique::DepthPass ? stats.zpass_pairs : stats.zfail_pairs);
     }
     for (const std::uint32_t l : listed) {

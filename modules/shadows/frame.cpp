@@ -194,7 +194,7 @@ void ShadowSystem::State::collect_work(bool all) {
         // What is easier made anew than kept in step.
         if (whole_row || bounds_before.size() > casters.size() / 4) light.grid = nullptr;
         for (const std::uint32_t c : whole_row ? casters.by_key() : changed) {
-            work.push_back({.light = l, .caster = c, .made = nullptr});
+            work.push_back({.light = l, .caster = c, .made = nullptr, .quads = nullptr});
         }
     }
     for (const auto& [caster, bounds] : bounds_before) take_from_grids(caster, bounds);
@@ -236,8 +236,8 @@ void ShadowSystem::State::update_one(PairWork& item, Scratch& scratch, FrameStat
         pair.reason = Reason::OutOfRange;
         return;
     }
-    const internal::FrameTerms terms{far_vertices, strategy, frame, options.caps};
-    internal::update_pair(pair, caster, light, terms, volume, scratch, item, stats);
+    internal::update_pair(pair, caster, light, terms(), volume, quads_of(light, item.caster),
+                          scratch, item, stats);
 }
 
 // In the order of the work, whoever did it: revisions are the same whatever the threads. True where
@@ -276,23 +276,29 @@ bool ShadowSystem::State::place_results() {
 
 void ShadowSystem::State::place_volume(LightState& light, PairState& pair, PairWork& item) {
     const std::uint64_t revision = internal::next_volume_revision();
-    const bool empty = item.made->empty();  // nothing faces anything: no shadow
+    const bool empty =
+        item.made->empty() && item.quads == nullptr;  // nothing faces anything: no shadow
     if (pair.draw != internal::no_draw) {
         VolumeDraw& draw = list.draws[light.first + pair.draw];
         if (empty) {
             pair.draw = internal::no_draw;
         } else {
             draw.volume = std::move(item.made);
+            draw.quads.reset();
+            if (item.quads != nullptr) draw.quads = std::move(*item.quads);
             draw.revision = revision;
         }
     } else if (!empty) {
         pair.more().whole = std::move(item.made);
+        pair.extra->whole_quads = std::move(item.quads);
         pair.extra->whole_revision = revision;
         light.gained = true;
     } else if (pair.extra != nullptr) {
         pair.extra->whole = nullptr;
+        pair.extra->whole_quads = nullptr;
     }
     item.made = nullptr;
+    item.quads = nullptr;
 }
 
 // Of a caster as it was at the last finish(), by the bounds that it had.
@@ -316,6 +322,7 @@ void ShadowSystem::State::put_into_grids() {
 
 // Whether more layers than can be counted may lie over a point; asked of all pairs' bounds alone.
 bool ShadowSystem::State::piles_up(LightState& light) {
+    if (options.layer_bound == LayerBound::Promised) return false;
     const std::uint64_t sum =
         std::accumulate(light.layers.begin(), light.layers.end(), std::uint64_t{0});
     if (sum <= options.max_layers) {
@@ -337,6 +344,29 @@ bool ShadowSystem::State::piles_up(LightState& light) {
     return true;
 }
 
+// What the GPU finds has a coarse bound only. Where that piles up to more than can be counted, the
+// CPU finds it after all: so a light that is split has no quads. True where draws go.
+bool ShadowSystem::State::take_back_quads(LightState& light) {
+    Borrowed scratch(scratch_mutex, scratches);
+    bool rearranged = false;
+    for (const std::uint32_t c : casters.by_key()) {
+        if (quads_of(light, c) == nullptr) continue;
+        PairState& pair = light.pairs[c];
+        PairWork item{.caster = c, .made = nullptr, .quads = nullptr};
+        internal::take_back_from_gpu(pair, casters[c], light, terms(), *scratch, item, list.stats);
+        light.layers[c] = item.layers;
+        const bool was_drawn = pair.draw != internal::no_draw;
+        place_volume(light, pair, item);
+        if (pair.draw != internal::no_draw) {
+            origins[light.first + pair.draw].fill = DrawOrigin::Fill::All;
+        } else if (was_drawn) {
+            rearranged = true;
+        }
+        pair.release_idle_extra();
+    }
+    return rearranged;
+}
+
 bool ShadowSystem::State::split_lights() {
     std::vector<LightState*> touched;
     for (const std::uint32_t l : lights.by_key()) {
@@ -353,8 +383,17 @@ bool ShadowSystem::State::split_lights() {
     for (std::size_t i = 0; i < touched.size(); ++i) {
         LightState& light = *touched[i];
         const bool was_split = !light.pieces.empty();
+        if (pile_up[i] != 0) gather_drawn(light);
+        if (pile_up[i] != 0 && std::ranges::any_of(drawn, &internal::DrawnPair::quads)) {
+            if (internal::fit_together(light, options.max_layers, drawn)) {
+                pile_up[i] = 0;
+            } else {
+                rearranged = take_back_quads(light) || rearranged;
+                pile_up[i] = piles_up(light) ? 1 : 0;
+                if (pile_up[i] != 0) gather_drawn(light);
+            }
+        }
         if (pile_up[i] != 0) {
-            gather_drawn(light);
             internal::split_into_batches(light, options.max_layers, drawn);
         } else {
             light.pieces.clear();

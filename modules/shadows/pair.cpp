@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "internal/quad_pair.hpp"
 #include "internal/strategies.hpp"
 
 namespace gnomon::shadows::internal {
@@ -74,6 +75,18 @@ double distance_to_bounds(const ShadowMesh& mesh, LightLocal light) {
     return glm::length(l - within) * (1.0 - 1e-9);
 }
 
+// What the pair's volume was decided for.
+void remember(PairState& pair, const CasterState& caster, LightLocal light, const FrameTerms& terms,
+              double margin) {
+    pair.set(PairFlag::Known, true);
+    pair.set(PairFlag::FiniteFar, terms.far_vertices == FarVertices::Finite);
+    pair.set(PairFlag::AvertedCaps, caster.near_caps == NearCaps::Averted);
+    pair.set(PairFlag::Flattened, caster.pose.singular);
+    pair.detected = glm::vec3(light.position);
+    pair.margin = not_above(margin);
+    if (pair.extra != nullptr) pair.extra->nearest_face = -1.0;
+}
+
 SilhouetteDetector& detector_of(PairState& pair, const SilhouetteStrategy& strategy,
                                 std::uint64_t frame, Scratch& scratch) {
     if (strategy.keeps_state) {
@@ -124,14 +137,9 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
         runs_of(found.casting, scratch.runs);
         build_volume(mesh, scratch.runs, found.silhouette, options, *volume, found.solid_averted);
         work.made = std::move(volume);
+        work.quads = nullptr;
     }
-    pair.set(PairFlag::Known, true);
-    pair.set(PairFlag::FiniteFar, terms.far_vertices == FarVertices::Finite);
-    pair.set(PairFlag::AvertedCaps, caster.near_caps == NearCaps::Averted);
-    pair.set(PairFlag::Flattened, caster.pose.singular);
-    pair.detected = glm::vec3(current.position);
-    pair.margin = not_above(margin);
-    if (pair.extra != nullptr) pair.extra->nearest_face = -1.0;
+    remember(pair, caster, current, terms, margin);
 
     stats.detect_ms += milliseconds(start, detected);
     stats.build_ms += milliseconds(detected, Clock::now());
@@ -144,6 +152,33 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
     ++stats.choices[static_cast<std::size_t>(by_detector == Choice::ByName ? chosen.choice
                                                                            : by_detector)];
     ++stats.pairs_redetected;
+}
+
+// False: the pair is not one of those that edge quads can draw; nothing happened.
+bool leave_to_gpu(PairState& pair, const CasterState& caster, const LightState& light,
+                  const FrameTerms& terms, QuadFacing facing, Scratch& scratch, PairWork& work,
+                  FrameStats& stats) {
+    if (caster.pose.singular) return false;
+    const LightLocal current = current_light(pair, light);
+    const auto start = Clock::now();
+    std::optional<QuadMargin> found =
+        cast_by_quads(*caster.mesh, current, caster.near_caps, facing, scratch.facing);
+    if (!found) return false;
+    if (facing == QuadFacing::Uploaded) {
+        const FacingStats& looked_at = scratch.facing.stats;
+        stats.detect_ms += milliseconds(start, Clock::now());
+        stats.detection.faces_tested += looked_at.faces;
+        stats.detection.double_tests += looked_at.double_tests;
+        stats.detection.exact_tests += looked_at.exact_tests;
+        stats.detection.bytes_touched += looked_at.faces * (5 * sizeof(float) + 2);
+        ++stats.choices[static_cast<std::size_t>(Choice::ByName)];
+        ++stats.pairs_redetected;
+    }
+    if (pair.extra != nullptr) pair.extra->detector_is_current = false;
+    work.made = volume_of_quads();
+    work.quads = std::make_unique<QuadCasting>(std::move(found->casting));
+    remember(pair, caster, current, terms, found->margin);
+    return true;
 }
 
 // Squared distance to a triangle. After C. Ericson, "Real-Time Collision Detection" (2005),
@@ -168,6 +203,14 @@ double squared_distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dve
         if (inside) best = std::min(best, glm::dot(p - q, p - q));
     }
     return best;
+}
+
+void bound_quickly(PairState& pair, const CasterState& caster, const LightState& light,
+                   const Volume& volume, const QuadCasting* quads, PairWork& work) {
+    const bool outside = seen_from_outside(*caster.mesh, space_of(pair, caster, light));
+    pair.set(PairFlag::FromOutside, outside);
+    work.layers = quads != nullptr ? quad_layer_bound(*caster.mesh, *quads)
+                                   : quick_layer_bound(volume, outside);
 }
 
 }  // namespace
@@ -203,8 +246,8 @@ ChosenStrategy choose_strategy(const SilhouetteStrategy* wanted, const ShadowMes
 }
 
 void update_pair(PairState& pair, const CasterState& caster, const LightState& light,
-                 const FrameTerms& terms, const Volume* volume, Scratch& scratch, PairWork& work,
-                 FrameStats& stats) {
+                 const FrameTerms& terms, const Volume* volume, const QuadCasting* quads,
+                 Scratch& scratch, PairWork& work, FrameStats& stats) {
     const bool is_new = !pair.is(PairFlag::Known);
     const glm::dvec4& light_world = light.light.position_world;
     const bool directional = light_world.w == 0.0;
@@ -258,8 +301,13 @@ void update_pair(PairState& pair, const CasterState& caster, const LightState& l
         const PairHistory history{
             .is_new = is_new,
             .frames_at_rest = static_cast<std::uint16_t>(terms.frame - pair.changed - 1)};
-        detect(pair, caster, light, terms, choose_strategy(terms.strategy, *caster.mesh, history),
-               comparable && !asked_anew, scratch, work, stats);
+        const ChosenStrategy chosen = choose_strategy(terms.strategy, *caster.mesh, history);
+        const QuadFacing facing = chosen.strategy->quads;
+        if (facing == QuadFacing::None ||
+            !leave_to_gpu(pair, caster, light, terms, facing, scratch, work, stats)) {
+            detect(pair, caster, light, terms, chosen, comparable && !asked_anew, scratch, work,
+                   stats);
+        }
     } else {
         ++stats.pairs_reused;
     }
@@ -271,8 +319,28 @@ void update_pair(PairState& pair, const CasterState& caster, const LightState& l
     pair.set(PairFlag::Bounded, false);
     const Volume* now = work.made != nullptr ? work.made.get() : volume;
     if (now == nullptr) return;
-    pair.set(PairFlag::FromOutside, seen_from_outside(*caster.mesh, space_of(pair, caster, light)));
-    work.layers = quick_layer_bound(*now, pair.is(PairFlag::FromOutside));
+    if (work.made != nullptr) quads = work.quads.get();
+    bound_quickly(pair, caster, light, *now, quads, work);
+}
+
+void take_back_from_gpu(PairState& pair, const CasterState& caster, const LightState& light,
+                        const FrameTerms& terms, Scratch& scratch, PairWork& work,
+                        FrameStats& stats) {
+    FrameStats own;
+    detect(pair, caster, light, terms, {terms.strategy, Choice::ByName}, false, scratch, work, own);
+    bound_quickly(pair, caster, light, *work.made, nullptr, work);
+    pair.set(PairFlag::Bounded, false);
+    stats.detection.faces_tested += own.detection.faces_tested;
+    stats.detection.edges_tested += own.detection.edges_tested;
+    stats.detection.double_tests += own.detection.double_tests;
+    stats.detection.exact_tests += own.detection.exact_tests;
+    stats.detection.bytes_touched += own.detection.bytes_touched;
+    stats.detect_ms += own.detect_ms;
+    stats.build_ms += own.build_ms;
+    // Where faces were looked at for the GPU, the pair has been counted.
+    if (terms.strategy->quads != QuadFacing::InShader) return;
+    for (std::size_t i = 0; i < choice_count; ++i) stats.choices[i] += own.choices[i];
+    stats.pairs_redetected += own.pairs_redetected;
 }
 
 LayerSpace space_of(const PairState& pair, const CasterState& caster, const LightState& light) {

@@ -202,6 +202,10 @@ SystemMemory ShadowSystem::memory() const {
         return sizeof(Volume) + volume.indices.capacity() * sizeof(std::uint32_t) +
                volume.ranges.capacity() * sizeof(FaceRange);
     };
+    const auto size_of_quads = [](const QuadCasting& quads) -> std::size_t {
+        if (quads.bits == nullptr) return 0;
+        return sizeof(FaceBits) + quads.bits->capacity() * sizeof(std::uint32_t);
+    };
     for (std::uint32_t l = 0; l < s.lights.end(); ++l) {
         const LightState& light = s.lights[l];
         memory.lights += light.memory.revisions.capacity() * sizeof(std::uint64_t) +
@@ -215,12 +219,17 @@ SystemMemory ShadowSystem::memory() const {
             memory.extras += sizeof extra + extra.parts.capacity() * sizeof(internal::VolumePart);
             if (extra.detector != nullptr) memory.extras += extra.detector->memory_bytes();
             if (extra.whole != nullptr) memory.extras += size_of(*extra.whole);
+            if (extra.whole_quads != nullptr) {
+                memory.extras += sizeof(QuadCasting) + size_of_quads(*extra.whole_quads);
+            }
         }
     }
     memory.draws = s.list.draws.capacity() * sizeof(VolumeDraw) +
                    s.list.lights.capacity() * sizeof(LightDraws) +
                    s.origins.capacity() * sizeof(DrawOrigin);
-    for (const VolumeDraw& draw : s.list.draws) memory.volumes += size_of(*draw.volume);
+    for (const VolumeDraw& draw : s.list.draws) {
+        memory.volumes += draw.quads ? size_of_quads(*draw.quads) : size_of(*draw.volume);
+    }
     memory.scratch = s.work.capacity() * sizeof(internal::PairWork) +
                      s.drawn.capacity() * sizeof(internal::DrawnPair) +
                      s.fills.capacity() * sizeof(State::DrawToFill) +

@@ -27,6 +27,7 @@
 #include <gnomon/core/expects.hpp>
 #include <gnomon/core/result.hpp>
 #include <gnomon/shadows/detector.hpp>
+#include <gnomon/shadows/edge_quads.hpp>
 #include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/jobs.hpp>
 #include <gnomon/shadows/light.hpp>
@@ -71,8 +72,13 @@ struct VolumeDraw {
     std::uint64_t light = 0;
     std::uint64_t caster = 0;
     std::shared_ptr<const ShadowMesh> mesh;
-    std::shared_ptr<const Volume> volume;
-    std::uint64_t revision = 0;  ///< changes whenever the indices do; unique in the process
+    std::shared_ptr<const Volume> volume;  ///< empty where `quads` are drawn instead
+    /// The silhouette is found on the GPU, from quads on every edge of the mesh: strategies with
+    /// SilhouetteStrategy::quads, for casters that fits_edge_quads(), cast one-sided and are not
+    /// deformed.
+    std::optional<QuadCasting> quads;
+    /// Changes whenever the indices or the bits of `quads` do; unique in the process.
+    std::uint64_t revision = 0;
     glm::dmat4 world_from_local{1.0};
     /// Takes the far vertices (p * scale + offset) to the world: the caster's own pose, but for
     /// singular poses.
@@ -107,10 +113,11 @@ struct FrameStats {
     std::uint64_t pairs_reused = 0;
     std::uint64_t zpass_pairs = 0;
     std::uint64_t zfail_pairs = 0;
-    std::uint64_t silhouette_edges = 0;  ///< of all pairs drawn
-    std::uint64_t stencil_batches = 0;   ///< of all lights; as many as lights with volumes where
-                                         ///< none was split
-    std::uint64_t split_lights = 0;      ///< lights with more than one batch
+    std::uint64_t silhouette_edges = 0;  ///< of all pairs drawn, but for quad_pairs
+    std::uint64_t quad_pairs = 0;  ///< of all pairs drawn: those whose silhouette the GPU finds
+    std::uint64_t stencil_batches = 0;  ///< of all lights; as many as lights with volumes where
+                                        ///< none was split
+    std::uint64_t split_lights = 0;     ///< lights with more than one batch
     DetectionStats detection;
     std::array<std::uint64_t, choice_count> choices{};  ///< redetected pairs, by Choice
     double detect_ms = 0.0;  ///< facing and silhouettes; of all threads together
@@ -135,6 +142,17 @@ enum class Submission : std::uint8_t {
     Delta,  ///< what is not submitted is as it was; use remove_caster and remove_light
 };
 
+/// How it is known that no point lies under more layers than the stencil counts.
+enum class LayerBound : std::uint8_t {
+    /// Each light's layers are bounded from above, and split where the bound is too high. Pairs
+    /// that the GPU finds the silhouettes of have a coarse bound only: where that is too high the
+    /// CPU takes them back, until they are detected anew: then a list may say more of what came
+    /// before than DrawList promises, though not what is drawn.
+    Proved,
+    /// The host says so: nothing is bounded, nothing split. Where it is wrong, the shadow is.
+    Promised,
+};
+
 struct SystemOptions {
     std::optional<Technique> force_technique =
         std::nullopt;                      ///< for every pair, valid or not; for tests and reports
@@ -142,6 +160,7 @@ struct SystemOptions {
     /// A light whose volumes could lay more layers than this over a point is split into batches.
     /// 1 .. 255: what eight bits count. Less is for tests.
     std::uint32_t max_layers = 255;
+    LayerBound layer_bound = LayerBound::Proved;
     /// Runs the detection and building of pairs that changed. Empty: all on the thread that calls
     /// finish(). That is the default because a library that starts threads unasked competes with
     /// its host's own; thread_jobs() is a runner for hosts without any.

@@ -45,7 +45,7 @@ struct OnePair {
     PairState pair;
     Scratch scratch;
     FrameTerms terms{.strategy = &remembering};
-    std::shared_ptr<Volume> volume;
+    std::shared_ptr<const Volume> volume;
 
     OnePair() {
         caster.mesh = test::build(test::box());
@@ -58,7 +58,7 @@ struct OnePair {
         light.moved = light.light.position_world != position;
         light.light.position_world = position;
         PairWork work;
-        update_pair(pair, caster, light, terms, volume.get(), scratch, work, stats);
+        update_pair(pair, caster, light, terms, volume.get(), nullptr, scratch, work, stats);
         caster.mesh_before = caster.mesh->id();
         if (work.made == nullptr) return false;
         volume = work.made;

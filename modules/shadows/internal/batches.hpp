@@ -19,13 +19,19 @@ struct DrawnPair {
     const CasterState* caster = nullptr;
     const Volume* volume = nullptr;
     std::uint64_t revision = 0;
+    bool quads = false;  ///< the GPU makes its volume
 };
 
-/// The light's pairs with volumes, by caster key. Where more layers than `limit` cannot be ruled
-/// out, the light's pieces become draws in batches of no more than min(limit, 127) each, ascending,
-/// volumes that alone exceed that in parts; else it has none. Returns the number of batches. Cost:
-/// a comparison where nothing changed since the last call; else O(n log n), and layer_bound() for
-/// the volumes that changed.
+/// Whether no more layers than `limit` lie over any point, by the pairs' layers as they are. Cost:
+/// O(n log n).
+[[nodiscard]] bool fit_together(LightState& light, std::uint32_t limit,
+                                std::span<const DrawnPair> pairs);
+
+/// The light's pairs with volumes of the CPU's, by caster key. Where more layers than `limit`
+/// cannot be ruled out, the light's pieces become draws in batches of no more than min(limit, 127)
+/// each, ascending, volumes that alone exceed that in parts; else it has none. Returns the number
+/// of batches. Cost: a comparison where nothing changed since the last call; else O(n log n), and
+/// layer_bound() for the volumes that changed.
 std::uint32_t split_into_batches(LightState& light, std::uint32_t limit,
                                  std::span<const DrawnPair> pairs);
 

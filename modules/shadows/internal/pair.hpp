@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include <gnomon/shadows/detector.hpp>
+#include <gnomon/shadows/edge_quads.hpp>
 #include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/layer_bound.hpp>
 #include <gnomon/shadows/shadow_system.hpp>
@@ -59,6 +60,7 @@ struct PairExtra {
     /// The pair's volume where the draw list has no draw of it as a whole: parts are drawn instead.
     std::shared_ptr<const Volume> whole;
     std::uint64_t whole_revision = 0;
+    std::unique_ptr<QuadCasting> whole_quads;  ///< VolumeDraw::quads, with `whole`
     std::vector<VolumePart> parts;
     /// Metres from the light to the nearest casting face, for finite views; negative until asked
     /// for.
@@ -83,7 +85,7 @@ enum class PairFlag : std::uint8_t {
 inline constexpr std::uint32_t no_draw = std::numeric_limits<std::uint32_t>::max();
 
 /// One for every pair, whether it casts or not: kept small. Its volume is where it is drawn from,
-/// in the draw list, or in `extra`; an empty one is nowhere.
+/// in the draw list, or in `extra`; an empty one is nowhere, unless the GPU makes it.
 struct PairState {
     /// The light in the caster's space, before rounding; in the world where flattened.
     glm::dvec3 light_exact{0.0};
@@ -176,7 +178,8 @@ struct PairWork {
     std::uint32_t layers = 0;
     bool was_culled = false;
     bool had_volume = false;
-    std::shared_ptr<Volume> made;  ///< null: its volume stays what it was
+    std::shared_ptr<const Volume> made;  ///< null: its volume stays what it was
+    std::unique_ptr<QuadCasting> quads;  ///< VolumeDraw::quads, with `made`
 };
 
 /// Unique in the process, never 0.
@@ -199,12 +202,19 @@ struct ChosenStrategy {
                                              const ShadowMesh& mesh, const PairHistory& history);
 
 /// Brings the pair up to date: its reason, and in `work` a new volume where it needs one and its
-/// layers where they may be others. `volume` is the one it has, null for none or an empty one.
+/// layers where they may be others. `volume` is the one it has, null for none or an empty one, and
+/// `quads` what the GPU makes it from, if it does.
 /// Touches nothing but its arguments, so that pairs may be updated by several threads at a time.
 /// Adds to the stats.
 void update_pair(PairState& pair, const CasterState& caster, const LightState& light,
-                 const FrameTerms& terms, const Volume* volume, Scratch& scratch, PairWork& work,
-                 FrameStats& stats);
+                 const FrameTerms& terms, const Volume* volume, const QuadCasting* quads,
+                 Scratch& scratch, PairWork& work, FrameStats& stats);
+
+/// Gives a pair that was left to the GPU a volume of the CPU's after all, in `work`, with its
+/// layers: exact for the light as it is. Adds to the stats.
+void take_back_from_gpu(PairState& pair, const CasterState& caster, const LightState& light,
+                        const FrameTerms& terms, Scratch& scratch, PairWork& work,
+                        FrameStats& stats);
 
 /// The light in the caster's space, as the shader receives it.
 [[nodiscard]] LightLocal current_light(const PairState& pair, const LightState& light);

@@ -28,6 +28,7 @@ struct DrawOrigin {
     std::uint32_t silhouette_edges = 0;          ///< of the pair; 0 for other parts than the first
     bool first = true;                           ///< of its pair's draws
     Technique technique = Technique::DepthFail;  ///< the draw's
+    bool quads = false;                          ///< the draw has some
     Fill fill = Fill::Not;
 };
 
@@ -82,6 +83,9 @@ struct ShadowSystem::State {
     void forget_reasons();
     void collect_work(bool all);
     void update_pairs();
+    [[nodiscard]] internal::FrameTerms terms() const {
+        return {far_vertices, strategy, frame, options.caps};
+    }
     void update_one(internal::PairWork& item, internal::Scratch& scratch, FrameStats& stats);
     [[nodiscard]] bool place_results();
     void place_volume(internal::LightState& light, internal::PairState& pair,
@@ -89,6 +93,7 @@ struct ShadowSystem::State {
     void take_from_grids(std::uint32_t caster, const OrientedBounds& bounds);
     void put_into_grids();
     [[nodiscard]] bool piles_up(internal::LightState& light);
+    [[nodiscard]] bool take_back_quads(internal::LightState& light);
     [[nodiscard]] bool split_lights();
     void tidy_up();
     void let_detectors_rest();
@@ -99,6 +104,8 @@ struct ShadowSystem::State {
     // draw_list.cpp
     [[nodiscard]] const Volume* volume_of(const internal::LightState& light,
                                           std::uint32_t caster) const;
+    [[nodiscard]] const QuadCasting* quads_of(const internal::LightState& light,
+                                              std::uint32_t caster) const;
     void gather_drawn(const internal::LightState& light);
     void lift_volumes(internal::LightState& light);
     void rearrange();
