@@ -124,15 +124,17 @@ Status Renderer::State::create() {
     auto made_targets = internal::create_targets(*device, desc);
     if (!made_targets) return forward_error(made_targets);
     targets = std::move(*made_targets);
-    auto pass =
-        shadow_pass::ShadowPass::create(*device, {.depth_stencil_format = desc.depth_stencil_format,
-                                                  .depth_compare = desc.volume_depth_compare,
-                                                  .sample_count = desc.sample_count,
-                                                  .color_formats = {internal::radiance_format},
-                                                  .extrusion = desc.extrusion,
-                                                  .silhouette_lines = desc.overlays.silhouettes,
-                                                  .cap_parts = desc.overlays.caps,
-                                                  .averted_faces = desc.averted_faces});
+    auto pass = shadow_pass::ShadowPass::create(
+        *device,
+        {.depth_stencil_format = desc.depth_stencil_format,
+         .depth_compare = desc.volume_depth_compare,
+         .sample_count = desc.sample_count,
+         .color_formats = {internal::radiance_format},
+         .extrusion = desc.extrusion,
+         .silhouette_lines = desc.overlays.silhouettes,
+         .cap_parts = desc.overlays.caps,
+         .expand_quads = desc.overlays.volumes || desc.overlays.silhouettes || desc.overlays.caps,
+         .averted_faces = desc.averted_faces});
     if (!pass) return forward_error(pass);
     shadows = std::move(*pass);
     auto made_pipelines =

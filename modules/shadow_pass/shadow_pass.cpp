@@ -11,16 +11,19 @@
 
 #include <gnomon_shaders/shadow_pass.hpp>
 
+#include "internal/gpu_quads.hpp"
 #include "internal/index_arena.hpp"
 #include "internal/mesh_caps.hpp"
 #include "internal/stencil_fold.hpp"
 #include "internal/volume_draws.hpp"
+#include "internal/volume_pipelines.hpp"
 
 namespace gnomon::shadow_pass {
 
-using internal::Role;
-using internal::role_count;
+using internal::pipeline_index;
+using internal::Pipelines;
 using internal::Run;
+using internal::VertexStage;
 using shadows::Technique;
 
 namespace {
@@ -33,49 +36,12 @@ struct VolumeUniforms {
     glm::vec4 far_scale;
 };
 
-bool is_reversed(gpu::Compare compare) {
-    return compare == gpu::Compare::Greater || compare == gpu::Compare::GreaterEqual;
-}
+constexpr std::uint32_t quad_uniform_bytes =
+    sizeof(VolumeUniforms) + sizeof(internal::QuadUniforms);
 
-// "In front of", equality included.
-gpu::Compare or_equal(gpu::Compare compare) {
-    return is_reversed(compare) ? gpu::Compare::GreaterEqual : gpu::Compare::LessEqual;
-}
-
-// Front and back are named from outside the volume. Depth-fail counts faces behind the surface
-// (equality included: comparison is strict, and caps lie on surfaces), depth-pass those in front.
-gpu::DepthStencilState counting(const ShadowPassDesc& desc, Technique technique, bool exchanged,
-                                Role role, std::uint32_t count_mask) {
-    gpu::DepthStencilState state{.format = desc.depth_stencil_format,
-                                 .depth_compare = desc.depth_compare,
-                                 .stencil_write_mask = count_mask};
-    if (role == Role::OpenCap) state.depth_compare = or_equal(desc.depth_compare);
-    if (role != Role::Volume) {
-        const int nearer = is_reversed(desc.depth_compare) ? 1 : -1;
-        const int sign = role == Role::OpenCap ? nearer : -nearer;
-        state.depth_bias = sign * desc.cap_bias.constant;
-        state.depth_bias_slope_scale = static_cast<float>(sign) * desc.cap_bias.slope_scale;
-    }
-    gpu::StencilFaceState up;
-    gpu::StencilFaceState down;
-    if (technique == Technique::DepthFail) {
-        up.depth_fail_op = gpu::StencilOp::IncrementWrap;
-        down.depth_fail_op = gpu::StencilOp::DecrementWrap;
-        state.stencil_front = down;
-        state.stencil_back = up;
-    } else {
-        up.pass_op = gpu::StencilOp::IncrementWrap;
-        down.pass_op = gpu::StencilOp::DecrementWrap;
-        state.stencil_front = up;
-        state.stencil_back = down;
-    }
-    if (exchanged) std::swap(state.stencil_front, state.stencil_back);
-    return state;
-}
-
-std::size_t pipeline_index(Technique technique, bool exchanged, bool unclipped, Role role) {
-    return (technique == Technique::DepthFail ? 1U : 0U) + (exchanged ? 2U : 0U) +
-           (unclipped ? 4U : 0U) + 8U * static_cast<std::size_t>(role);
+// Of a table by QuadFacing, without None.
+std::size_t place_of(shadows::QuadFacing facing) {
+    return facing == shadows::QuadFacing::Uploaded ? 0 : 1;
 }
 
 bool is_same_view(const shadows::View& a, const shadows::View& b) {
@@ -102,7 +68,6 @@ struct ShadowPass::State {
     gpu::BindGroupLayout layout;
     gpu::Shader vertex;
     gpu::Shader fragment;
-    using Pipelines = std::array<gpu::RenderPipeline, 8 * role_count>;
     Pipelines pipelines;
     // What lights that are split into batches need more, made when the first one comes.
     struct Batching {
@@ -110,10 +75,19 @@ struct ShadowPass::State {
         Pipelines pipelines;
     };
     std::optional<Batching> batching;
+    // What volumes from quads on every edge need, made when the first one comes: pipelines by how
+    // facing is found, and the same for batches.
+    struct Quads {
+        internal::GpuQuads gpu;
+        std::array<std::optional<Pipelines>, 2> pipelines = {};
+        std::array<std::optional<Pipelines>, 2> batched = {};
+    };
+    std::optional<Quads> quads;
     std::uint32_t uniform_stride = 256;
     gpu::Buffer uniforms;
     std::uint64_t uniforms_size = 0;
     gpu::BindGroup bind_group;
+    gpu::BindGroupId quad_uniforms;
 
     struct MeshVertices {
         gpu::Buffer buffer;
@@ -148,6 +122,8 @@ struct ShadowPass::State {
         std::uint32_t batch = 0;
         std::shared_ptr<const shadows::Volume> volume;
         std::vector<Run> near_caps;  // for Part::Caps, where it may be asked for
+        shadows::QuadFacing quads = shadows::QuadFacing::None;
+        gpu::BindGroupId quad_textures = {};
     };
     std::vector<Recorded> recorded;
     std::vector<shadows::LightDraws> lights;
@@ -157,7 +133,14 @@ struct ShadowPass::State {
         : device(&d), desc(description), indices(d) {}
 
     Status create_shaders();
-    Result<Pipelines> create_pipelines(std::uint32_t count_mask);
+    [[nodiscard]] VertexStage volume_stage() const { return {{layout}, vertex, {vertex_layout()}}; }
+    Result<Pipelines> create_pipelines(const VertexStage& stage, std::uint32_t count_mask) {
+        return internal::create_volume_pipelines(*device, desc, stage, fragment, count_mask);
+    }
+    Status create_quads(const shadows::DrawList& list);
+    [[nodiscard]] const Pipelines& quad_pipelines(shadows::QuadFacing facing, bool batched) const {
+        return *(batched ? quads->batched : quads->pipelines)[place_of(facing)];
+    }
     Status create_batching();
     [[nodiscard]] gpu::VertexBufferLayout vertex_layout() const;
     Status write_uniforms(const shadows::DrawList& list, const shadows::View& view);
@@ -202,51 +185,37 @@ Status ShadowPass::State::create_shaders() {
     return {};
 }
 
-// Every stencil operation wraps within `count_mask` and leaves the other bits alone.
-Result<ShadowPass::State::Pipelines> ShadowPass::State::create_pipelines(std::uint32_t count_mask) {
-    Pipelines result;
-    gpu::RenderPipelineDesc pipeline;
-    pipeline.bind_group_layouts = {layout};
-    pipeline.vertex = vertex;
-    pipeline.fragment = fragment;
-    pipeline.vertex_buffers = {vertex_layout()};
-    for (const gpu::Format format : desc.color_formats) {
-        pipeline.targets.push_back({.format = format, .write_mask = gpu::ColorWrite::None});
-    }
-    pipeline.sample_count = desc.sample_count;
-    std::vector<Role> roles{Role::Volume};
-    if (!desc.cap_bias.none()) roles.push_back(Role::Cap);
-    if (desc.averted_faces == AvertedFaces::LeftToShading) roles.push_back(Role::OpenCap);
-    for (const bool unclipped : {false, true}) {
-        if (unclipped && !device->caps().features.unclipped_depth) continue;
-        for (const bool exchanged : {false, true}) {
-            for (const Technique technique : {Technique::DepthPass, Technique::DepthFail}) {
-                for (const Role role : roles) {
-                    pipeline.label =
-                        std::string("shadow volume, ") +
-                        (technique == Technique::DepthPass ? "depth-pass" : "depth-fail") +
-                        (exchanged ? ", exchanged" : "") + (unclipped ? ", unclipped" : "") +
-                        (role == Role::Cap ? ", biased caps" : "") +
-                        (role == Role::OpenCap ? ", open caps" : "");
-                    pipeline.primitive.unclipped_depth = unclipped;
-                    pipeline.depth_stencil = counting(desc, technique, exchanged, role, count_mask);
-                    auto made = device->create_render_pipeline(pipeline);
-                    if (!made) return forward_error(made);
-                    result[pipeline_index(technique, exchanged, unclipped, role)] =
-                        std::move(*made);
-                }
-            }
-        }
-    }
-    return result;
-}
-
 Status ShadowPass::State::create_batching() {
     auto fold = internal::StencilFold::create(*device, desc);
     if (!fold) return forward_error(fold);
-    auto made = create_pipelines(internal::StencilFold::count_mask);
+    auto made = create_pipelines(volume_stage(), internal::StencilFold::count_mask);
     if (!made) return forward_error(made);
     batching.emplace(Batching{std::move(*fold), std::move(*made)});
+    return {};
+}
+
+// What the quads of this list need and was not needed before.
+Status ShadowPass::State::create_quads(const shadows::DrawList& list) {
+    for (const shadows::LightDraws& light : list.lights) {
+        for (std::uint32_t i = light.first; i < light.first + light.count; ++i) {
+            const auto& draw = list.draws[i];
+            if (!draw.quads) continue;
+            if (!quads) {
+                auto made = internal::GpuQuads::create(*device, quad_uniform_bytes);
+                if (!made) return forward_error(made);
+                quads.emplace(Quads{std::move(*made)});
+            }
+            const bool batched = light.batches > 1;
+            auto& pipelines_of =
+                (batched ? quads->batched : quads->pipelines)[place_of(draw.quads->facing)];
+            if (pipelines_of) continue;
+            auto made = create_pipelines(
+                {quads->gpu.layouts(), quads->gpu.vertex_shader(draw.quads->facing), {}},
+                batched ? internal::StencilFold::count_mask : 0xFF);
+            if (!made) return forward_error(made);
+            pipelines_of = std::move(*made);
+        }
+    }
     return {};
 }
 
@@ -280,6 +249,9 @@ Status ShadowPass::State::write_uniforms(const shadows::DrawList& list, const sh
                                draw.extrusion.offset,
                                glm::vec4(draw.extrusion.scale, 0.0F, 0.0F, 0.0F)};
         std::memcpy(bytes.data() + i * uniform_stride, &u, sizeof u);
+        if (!draw.quads) continue;
+        const internal::QuadUniforms more = internal::uniforms_of(draw);
+        std::memcpy(bytes.data() + i * uniform_stride + sizeof u, &more, sizeof more);
     }
     stats.uploaded_bytes += needed;
     return device->write_buffer(uniforms, 0, bytes);
@@ -396,10 +368,10 @@ Result<ShadowPass> ShadowPass::create(gpu::Device& device, const ShadowPassDesc&
     }
     auto state = std::make_unique<State>(device, desc);
     const std::uint32_t alignment = device.caps().limits.min_uniform_buffer_offset_alignment;
-    const auto size = static_cast<std::uint32_t>(sizeof(VolumeUniforms));
+    const std::uint32_t size = quad_uniform_bytes;
     state->uniform_stride = (size + alignment - 1) / alignment * alignment;
     if (const Status created = state->create_shaders(); !created) return forward_error(created);
-    auto pipelines = state->create_pipelines(0xFF);
+    auto pipelines = state->create_pipelines(state->volume_stage(), 0xFF);
     if (!pipelines) return forward_error(pipelines);
     state->pipelines = std::move(*pipelines);
     return ShadowPass(std::move(state));
@@ -418,6 +390,11 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         return {};
     }
     s.prepared_revision = 0;
+    const bool any_quads = std::any_of(list.draws.begin(), list.draws.end(),
+                                       [](const auto& draw) { return draw.quads.has_value(); });
+    if (any_quads && (s.desc.extrusion == ExtrusionPath::Cpu || s.desc.expand_quads)) {
+        return prepare(internal::without_quads(list), view);
+    }
     ++s.generation;
     s.stats = {};
     s.recorded.clear();
@@ -427,8 +404,11 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         if (const auto found = s.volumes.find(draw.revision); found != s.volumes.end()) {
             found->second.used = s.generation;
         }
+        if (s.quads && draw.quads) s.quads->gpu.keep(draw.revision, s.generation);
     }
     s.free_unused();
+    if (s.quads) s.quads->gpu.free_unused(s.generation);
+    if (const Status created = s.create_quads(list); !created) return created;
     for (const shadows::LightDraws& light : list.lights) {
         if (light.batches <= 1) continue;
         if (!s.batching) {
@@ -448,6 +428,25 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
                             "the adapter " +
                             s.device->caps().adapter +
                             " lacks unclipped depth. Use an infinite perspective.");
+        }
+        if (draw.quads) {
+            auto textures = s.quads->gpu.textures_of(draw, s.generation, s.stats.uploaded_bytes);
+            if (!textures) return forward_error(textures);
+            s.recorded.push_back(
+                {.vertices = {},
+                 .indices = {},
+                 .mesh_caps = {},
+                 .exchanged = draw.mirrored,
+                 .unclipped = unclipped,
+                 .technique = draw.technique,
+                 .runs = internal::runs_of(draw, internal::ranges_of(draw), s.desc),
+                 .batch = draw.batch,
+                 .volume = draw.volume,
+                 .near_caps = {},
+                 .quads = draw.quads->facing,
+                 .quad_textures = *textures});
+            s.stats.draw_calls += s.recorded.back().runs.size();
+            continue;
         }
         auto vertices = s.desc.extrusion == ExtrusionPath::Cpu ? s.extruded_vertices_of(i, draw)
                                                                : s.vertices_of(*draw.mesh);
@@ -471,6 +470,11 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         s.stats.draw_calls += s.recorded.back().runs.size();
     }
     if (const Status written = s.write_uniforms(list, view); !written) return written;
+    if (any_quads) {
+        auto uniforms = s.quads->gpu.uniforms_in(s.uniforms);
+        if (!uniforms) return forward_error(uniforms);
+        s.quad_uniforms = *uniforms;
+    }
     s.stats.index_bytes_held = s.indices.indices_in_use() * sizeof(std::uint32_t);
     s.prepared_revision = list.revision;
     s.prepared_view = view;
@@ -493,7 +497,7 @@ void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) cons
     const shadows::LightDraws& of_light = s.lights[light];
     encoder.push_debug_group("shadow volumes");
     const bool batched = of_light.batches > 1;
-    const State::Pipelines& pipelines = batched ? s.batching->pipelines : s.pipelines;
+    const Pipelines& pipelines = batched ? s.batching->pipelines : s.pipelines;
     const gpu::RenderPipeline* current = nullptr;
     std::optional<std::uint32_t> indices;
     for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
@@ -503,14 +507,25 @@ void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) cons
             current = nullptr;
         }
         const std::uint32_t offset = i * s.uniform_stride;
-        encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
-        encoder.set_vertex_buffer(0, volume.vertices);
+        const bool quads = volume.quads != shadows::QuadFacing::None;
+        if (quads) {
+            encoder.set_bind_group(0, s.quad_uniforms, std::span(&offset, 1));
+            encoder.set_bind_group(1, volume.quad_textures);
+        } else {
+            encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
+            encoder.set_vertex_buffer(0, volume.vertices);
+        }
+        const Pipelines& of_stage = quads ? s.quad_pipelines(volume.quads, batched) : pipelines;
         for (const Run& run : volume.runs) {
-            const auto& pipeline = pipelines[pipeline_index(
+            const auto& pipeline = of_stage[pipeline_index(
                 volume.technique, volume.exchanged != run.exchanged, volume.unclipped, run.role)];
             if (&pipeline != current) encoder.set_pipeline(pipeline);
             current = &pipeline;
-            s.draw(encoder, volume, run, indices);
+            if (quads) {
+                encoder.draw(run.count, 1, run.first);
+            } else {
+                s.draw(encoder, volume, run, indices);
+            }
         }
     }
     if (batched) {
@@ -529,6 +544,7 @@ void ShadowPass::record_part(gpu::RenderPassEncoder& encoder, std::size_t light,
     for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
         const State::Recorded& recorded = s.recorded[i];
         const shadows::Volume& volume = *recorded.volume;
+        if (recorded.quads != shadows::QuadFacing::None) continue;
         const std::uint32_t offset = i * s.uniform_stride;
         encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
         encoder.set_vertex_buffer(0, recorded.vertices);

@@ -78,6 +78,10 @@ struct ShadowPassDesc {
     bool silhouette_lines =
         false;               ///< also uploads silhouette edges as lines, for Part::Silhouettes
     bool cap_parts = false;  ///< also keeps all caps at hand, for Part::Caps
+    /// Volumes that the GPU would make from quads on every edge (VolumeDraw::quads) are made by the
+    /// CPU, at a cost linear in the mesh each frame: for record_part(), which has nothing of them
+    /// otherwise. So it is with ExtrusionPath::Cpu in any case.
+    bool expand_quads = false;
     AvertedFaces averted_faces = AvertedFaces::Shadowed;
     CapBias cap_bias = {};  ///< both values >= 0; none where depth comes from the shared function
 };
@@ -114,8 +118,8 @@ public:
     /// its depth buffer is read, not written. Afterwards the stencil is 0 where the light arrives;
     /// elsewhere it is the count, or 255 where the light's volumes come in several batches
     /// (LightDraws::batches). Those are folded in place, by draws that cover the viewport: one a
-    /// batch and one more. Leaves pipeline, bind group 0, vertex slot 0, index buffer and stencil
-    /// reference changed.
+    /// batch and one more. Leaves pipeline, bind groups 0 and 1, vertex slot 0, index buffer and
+    /// stencil reference changed.
     void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
 
     // For debug views: draws one part of a light's volumes with a pipeline of the caller's, whose

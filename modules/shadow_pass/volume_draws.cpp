@@ -35,8 +35,9 @@ public:
         const auto state_of = [](const Run& r) {
             return std::tie(r.exchanged, r.role, r.of_mesh, r.base_vertex);
         };
-        std::stable_sort(runs_.begin(), runs_.end(),
-                         [&](const Run& a, const Run& b) { return state_of(a) < state_of(b); });
+        std::stable_sort(runs_.begin(), runs_.end(), [&](const Run& a, const Run& b) {
+            return std::tuple(state_of(a), a.first) < std::tuple(state_of(b), b.first);
+        });
         std::vector<Run> joined;
         for (const Run& run : runs_) {
             const bool goes_on = !joined.empty() &&
@@ -72,7 +73,11 @@ private:
 }  // namespace
 
 std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& desc) {
-    const shadows::Volume& volume = *draw.volume;
+    return runs_of(draw, *draw.volume, desc);
+}
+
+std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const shadows::Volume& volume,
+                         const ShadowPassDesc& desc) {
     const bool near = draw.technique == shadows::Technique::DepthFail || draw.near_caps;
     // A far cap at infinity is never in front of anything; a finite one closes the volume for
     // depth-pass as well.

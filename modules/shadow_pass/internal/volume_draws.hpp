@@ -31,6 +31,9 @@ struct Run {
 
 /// In an order that changes state seldom; neighbours that are drawn alike are one.
 [[nodiscard]] std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& desc);
+/// The same with `volume`, whose ranges alone are read, in the place of the draw's.
+[[nodiscard]] std::vector<Run> runs_of(const shadows::VolumeDraw& draw,
+                                       const shadows::Volume& volume, const ShadowPassDesc& desc);
 
 /// The near caps of the faces that cast, whatever the technique, without those that are undone: for
 /// Part::Caps.
