@@ -88,6 +88,7 @@ bool is_memoryless(const shadows::SilhouetteStrategy& strategy) {
 std::vector<Contestant> with_volumes() {
     std::vector<Contestant> result;
     for (const shadows::SilhouetteStrategy& strategy : shadows::silhouette_strategies()) {
+        if (strategy.quads != shadows::QuadFacing::None) continue;  // another one's detector
         result.push_back(
             {std::string(strategy.name),
              [create = strategy.create] { return std::make_unique<WithVolume>(create()); }, true,

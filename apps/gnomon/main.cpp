@@ -166,6 +166,15 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
         ->check(CLI::IsMember({"facing", "averted"}));
     render->add_option("--silhouette", o.silhouette, "How silhouettes are found")
         ->type_name("auto|NAME");
+    render
+        ->add_option_function<std::string>(
+            "--layers",
+            [&o](const std::string& text) {
+                if (text == "promised") o.layer_bound = shadows::LayerBound::Promised;
+            },
+            "Whether it is proved that no point lies under more layers than the stencil counts, or "
+            "you promise it, so that nothing is bounded nor split. Default proved")
+        ->check(CLI::IsMember({"proved", "promised"}));
     render->add_flag("--list-silhouettes", list_silhouettes, "List the names for --silhouette");
     render
         ->add_option_function<std::string>("--show", parsed_into(o.overlays, cli::parse_overlays),

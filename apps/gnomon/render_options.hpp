@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include <gnomon/shadows/facing.hpp>
+#include <gnomon/shadows/shadow_system.hpp>
 #include <gnomon/shadows/technique.hpp>
 
 #include "arguments.hpp"
@@ -38,6 +39,7 @@ struct RenderOptions {
     std::optional<shadows::Technique> technique = std::nullopt;
     shadows::NearCaps near_caps = shadows::NearCaps::Facing;
     std::string silhouette = "auto";
+    shadows::LayerBound layer_bound = shadows::LayerBound::Proved;
     render::Overlays overlays = {};
     std::uint32_t frames = 1;
     Motion motion = {};

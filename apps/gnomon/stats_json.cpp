@@ -32,6 +32,7 @@ std::string to_json(const RunRecord& run) {
                           {"zpass_pairs", s.zpass_pairs},
                           {"zfail_pairs", s.zfail_pairs},
                           {"silhouette_edges", s.silhouette_edges},
+                          {"quad_pairs", s.quad_pairs},
                           {"faces_tested", s.detection.faces_tested},
                           {"stencil_batches", s.stencil_batches},
                           {"split_lights", s.split_lights},

@@ -135,6 +135,12 @@ std::span<const SilhouetteStrategy> silhouette_strategies() {
          internal::edge_list_detector},
         {"hextree", "a tree of 16 children a node over edges between dual planes, four deep", true,
          internal::hextree_detector},
+        {"gpu_quads",
+         "closed casters: degenerate quads on all edges, facing uploaded; others: simd", false,
+         internal::simd_detector, QuadFacing::Uploaded},
+        {"gpu_quads_float",
+         "the same, but facing is decided in the vertex shader, in single precision", false,
+         internal::simd_detector, QuadFacing::InShader},
     });
     return strategies;
 }

@@ -52,6 +52,7 @@ TEST_F(Stats, every_member_is_there) {
             EXPECT_GT(frame["silhouette_edges"].get<int>(), 15);
             EXPECT_EQ(frame["stencil_batches"], 3) << "one a light";
             EXPECT_EQ(frame["split_lights"], 0);
+            EXPECT_EQ(frame["quad_pairs"], 0);
             EXPECT_GT(frame["upload_bytes"].get<int>(), 0);
             EXPECT_GT(frame["draw_calls"].get<int>(), 15);
             const auto in_double = frame["double_tests"].get<std::uint64_t>();

@@ -39,7 +39,7 @@ TEST_F(Usage, help_and_version_end_well) {
                                "--frames",     "--animate",
                                "--near",       "--list-silhouettes",
                                "--caps",       "--time",
-                               "--animation"}) {
+                               "--animation",  "--layers"}) {
         EXPECT_THAT(help, HasSubstr(option));
     }
 }
@@ -48,7 +48,12 @@ TEST_F(Usage, strategies_are_listed_and_taken) {
     const std::string list = run_well({"render", "--list-silhouettes"}).output;
     EXPECT_THAT(list, HasSubstr("auto: "));
     EXPECT_THAT(list, HasSubstr("brute_force: "));
+    EXPECT_THAT(list, HasSubstr("gpu_quads: "));
+    EXPECT_THAT(list, HasSubstr("gpu_quads_float: "));
     run_well(knot({"--silhouette", "brute_force"}));
+    run_well(knot({"--silhouette", "gpu_quads", "--layers", "promised"}));
+    run_well(knot({"--silhouette", "gpu_quads_float", "--layers", "proved"}));
+    expect_refused(knot({"--layers", "few"}), {"few", "promised"});
     expect_refused(knot({"--silhouette", "guess"}), {"guess", "auto, brute_force"});
 }
 

@@ -32,7 +32,10 @@ TEST_P(Strategies, give_the_same_bytes) {
         std::vector<std::string> names{"auto"};
         for (const auto& strategy : shadows::silhouette_strategies()) {
             // Quadratic in the mesh; its answers are compared where meshes are small.
-            if (strategy.name != "edge_stack_naive") names.emplace_back(strategy.name);
+            if (strategy.name == "edge_stack_naive") continue;
+            // In single precision: parity_quads has its devices, the truth its pictures.
+            if (strategy.quads == shadows::QuadFacing::InShader) continue;
+            names.emplace_back(strategy.name);
         }
         for (const std::string& name : names) {
             options.silhouette = name;

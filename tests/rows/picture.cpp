@@ -57,6 +57,7 @@ Result<Picture> take_picture(gpu::Device& device, const Setting& setting,
     auto system = shadows::ShadowSystem::create({.force_technique = options.technique,
                                                  .silhouette = options.silhouette,
                                                  .max_layers = options.max_layers,
+                                                 .layer_bound = options.layer_bound,
                                                  .caps = options.caps});
     if (!system) return forward_error(system);
     scene::ShadowAdapter adapter;

@@ -31,6 +31,7 @@ struct PictureOptions {
     shadows::NearCaps near_caps = shadows::NearCaps::Facing;
     shadow_pass::AvertedFaces averted_faces = shadow_pass::AvertedFaces::Shadowed;
     std::uint32_t max_layers = 255;
+    shadows::LayerBound layer_bound = shadows::LayerBound::Proved;
     shadows::CapOptions caps = {};
     std::string silhouette = "auto";
     /// Frames before the one that is drawn, in which the lights come to their places in small steps:

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -163,6 +164,68 @@ TEST(ShadowPass, uploads_caps_when_they_are_drawn_first) {
     for (const shadows::View& now : {view, within}) {
         ASSERT_TRUE(pass.prepare(world.frame(now), now));
         EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U) << "what is there stays there";
+    }
+}
+
+// One word has the bits of all four faces; the mesh itself goes once.
+TEST(ShadowPass, uploads_one_bit_a_face_of_what_turned) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world({.silhouette = "gpu_quads"});
+    const shadows::View view = perspective_view();
+    shadows::DrawList list = world.frame(view);
+    ASSERT_EQ(list.stats.quad_pairs, 5U);
+    ASSERT_TRUE(pass.prepare(list, view));
+    EXPECT_EQ(pass.stats().uploaded_bytes, 5U * (256U + 4U) + 16U * (4U + 6U + 4U));
+    EXPECT_EQ(pass.stats().index_bytes_held, 0U);
+    EXPECT_EQ(pass.stats().draw_calls, 5U);
+    ASSERT_TRUE(pass.prepare(world.frame(view), view));
+    EXPECT_EQ(pass.stats().uploaded_bytes, 0U) << "nothing moved";
+    for (int turn = 1; turn < 6; ++turn) {
+        world.angle = 2.0 * turn;
+        list = world.frame(view);
+        ASSERT_EQ(list.stats.pairs_redetected, 1U);
+        const std::uint64_t alive = device.counters().objects_alive;
+        ASSERT_TRUE(pass.prepare(list, view));
+        EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U + 4U);
+        EXPECT_EQ(device.counters().objects_alive, alive) << "what is freed is used again";
+    }
+}
+
+TEST(ShadowPass, uploads_matrices_alone_where_the_shader_decides) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world({.silhouette = "gpu_quads_float"});
+    const shadows::View view = perspective_view();
+    ASSERT_TRUE(pass.prepare(world.frame(view), view));
+    EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U + 16U * (4U + 6U + 4U + 4U));
+    for (int turn = 1; turn < 6; ++turn) {
+        world.angle = 2.0 * turn;
+        world.light += glm::dvec4(0.1, 0.2, 0.3, 0.0);
+        ASSERT_TRUE(pass.prepare(world.frame(view), view));
+        EXPECT_EQ(pass.stats().uploaded_bytes, 5U * 256U);
+    }
+}
+
+// A vertex stage that is the host's own knows no quads.
+TEST(ShadowPass, expands_quads_where_vertices_are_made_on_the_cpu) {
+    const shadows::View view = perspective_view();
+    for (const ExtrusionPath path : {ExtrusionPath::VertexShader, ExtrusionPath::Cpu}) {
+        std::uint64_t expected = 0;
+        for (const std::string_view name : {"brute_force", "gpu_quads", "gpu_quads_float"}) {
+            gpu::Device device(gpu::create_null_backend());
+            ShadowPass pass = *ShadowPass::create(
+                device, {.extrusion = path, .expand_quads = path == ExtrusionPath::VertexShader});
+            World world({.silhouette = name});
+            const shadows::DrawList list = world.frame(view);
+            ASSERT_TRUE(pass.prepare(list, view));
+            if (expected == 0) expected = pass.stats().index_bytes_held;
+            EXPECT_GT(expected, 0U);
+            EXPECT_EQ(pass.stats().index_bytes_held, expected) << name;
+            EXPECT_EQ(pass.stats().draw_calls, 5U) << name;
+            ASSERT_TRUE(pass.prepare(list, view));
+            EXPECT_EQ(pass.stats().uploaded_bytes, 0U) << name << ": the same list";
+        }
     }
 }
 

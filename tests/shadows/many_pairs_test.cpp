@@ -68,6 +68,14 @@ std::string described(const VolumeDraw& draw) {
     put(volume.far_cap.count);
     put(volume.far_copies);
     put(volume.silhouette_edges);
+    if (draw.quads) {
+        put(draw.quads->facing);
+        put(draw.quads->near_caps);
+        put(draw.quads->light);
+        if (draw.quads->bits != nullptr) {
+            for (const std::uint32_t word : *draw.quads->bits) put(word);
+        }
+    }
     put(draw.world_from_local);
     put(draw.world_from_far);
     put(draw.extrusion.scale);
@@ -237,7 +245,15 @@ class ManyPairs : public testing::TestWithParam<std::tuple<std::uint32_t, std::s
 protected:
     [[nodiscard]] static std::uint32_t max_layers() { return std::get<0>(GetParam()); }
     [[nodiscard]] static SystemOptions options() {
-        return {.silhouette = std::get<1>(GetParam()), .max_layers = max_layers()};
+        SystemOptions options{.silhouette = std::get<1>(GetParam()), .max_layers = max_layers()};
+        if (for_the_gpu()) options.layer_bound = LayerBound::Promised;
+        return options;
+    }
+    // What was taken back from the GPU stays so until it is detected anew: where layers are to be
+    // proved, the list depends on what came before.
+    [[nodiscard]] static bool for_the_gpu() {
+        const SilhouetteStrategy* strategy = find_strategy(std::get<1>(GetParam()));
+        return strategy->quads != QuadFacing::None;
     }
 };
 
@@ -263,7 +279,8 @@ TEST_P(ManyPairs, GiveTheListOfASystemThatSawNothingBefore) {
         ShadowSystem threaded = *ShadowSystem::create(threads);
         for (int step = 0; step < 60; ++step) {
             SCOPED_TRACE(testing::Message() << "run " << run << ", step " << step);
-            ShadowSystem fresh = *ShadowSystem::create({.max_layers = max_layers()});
+            ShadowSystem fresh = *ShadowSystem::create(
+                for_the_gpu() ? options : SystemOptions{.max_layers = max_layers()});
             const DrawList& expected = world.full(fresh);
             const DrawList& list = world.full(full);
             expect_same(list, expected);

@@ -46,6 +46,19 @@ TEST_P(Truth, no_pixel_is_wrong_outside_the_band) {
     EXPECT_LE(static_cast<double>(judgement.band), 0.10 * judged);
 }
 
+// Faces that are all but edge-on may come out either way there. Only the band may show it.
+TEST_P(Truth, no_pixel_is_wrong_where_the_vertex_shader_decides) {
+    TestDevice* device = must(shared_device(drawing_device()));
+    const Setting setting = GetParam().make();
+    const Picture picture = must(take_picture(device->device, setting,
+                                              {.layer_bound = shadows::LayerBound::Promised,
+                                               .silhouette = "gpu_quads_float",
+                                               .cull_back_faces = GetParam().cull_back_faces}));
+    if (picture.list.stats.quad_pairs == 0) GTEST_SKIP() << "no caster is closed";
+    const truth::Judgement judgement = judge_lights(trace_lights(setting), picture.masks);
+    EXPECT_EQ(judgement.wrong(), 0U) << wrong_places(judgement, row_width);
+}
+
 INSTANTIATE_TEST_SUITE_P(Rows, Truth, testing::ValuesIn(rows()),
                          [](const auto& param) { return param.param.name; });
 
