@@ -334,11 +334,15 @@ TEST(ShadowPass, refuses_depth_fail_under_a_far_plane_without_unclipped_depth) {
 
 // Every fallible call of the device fails once: each failure comes back as a Result and nothing is
 // left behind.
-class Survives : public testing::TestWithParam<bool> {};
+class Survives : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(Survives, a_device_that_fails_anywhere) {
     const shadows::View view = perspective_view();
-    const auto make_world = [] { return GetParam() ? split_world() : World(); };
+    const auto make_world = [] {
+        if (GetParam() == "split") return split_world();
+        if (GetParam() == "whole") return World();
+        return World({.silhouette = GetParam()});
+    };
     bool succeeded = false;
     for (std::uint64_t fail_at = 1; !succeeded && fail_at < 200; ++fail_at) {
         gpu::FaultPlan plan{.fail_at = fail_at};
@@ -364,9 +368,9 @@ TEST_P(Survives, a_device_that_fails_anywhere) {
     EXPECT_TRUE(succeeded);
 }
 
-INSTANTIATE_TEST_SUITE_P(ShadowPass, Survives, testing::Bool(), [](const auto& param) {
-    return std::string(param.param ? "split" : "whole");
-});
+INSTANTIATE_TEST_SUITE_P(ShadowPass, Survives,
+                         testing::Values("whole", "split", "gpu_quads", "gpu_quads_float"),
+                         [](const auto& param) { return std::string(param.param); });
 
 }  // namespace
 }  // namespace gnomon::shadow_pass
