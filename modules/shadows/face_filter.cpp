@@ -17,7 +17,7 @@ namespace gnomon::shadows::internal {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float largest = std::numeric_limits<float>::max();
+constexpr float largest_finite = std::numeric_limits<float>::max();
 
 float filter_from(std::size_t first, const FacePlanes& planes, const FilterLight& light,
                   std::span<std::int8_t> sides, float nearest) {
@@ -27,7 +27,7 @@ float filter_from(std::size_t first, const FacePlanes& planes, const FilterLight
                             planes.normal_z[f] * light.towards.z + planes.offset[f] * light.w;
         const float certain = std::abs(value) - planes.error[f] * light.reach;
         // Neither not-a-number nor infinity (an overflow) may pass.
-        const bool decided = certain > 0.0F && certain <= largest;
+        const bool decided = certain > 0.0F && certain <= largest_finite;
         sides[f] = static_cast<std::int8_t>(decided ? (value > 0.0F ? 1 : -1) : 0);
         if (decided && certain < nearest) nearest = certain;
     }
@@ -103,7 +103,7 @@ float filter_simd(const FacePlanes& planes, const FilterLight& light,
             const Words bits = reinterpret_cast<Words>(value);
             const Floats magnitude = reinterpret_cast<Floats>(bits & 0x7FFFFFFF);
             const Floats certain = magnitude - load(planes.error, f) * light.reach;
-            const Words decided = (certain > 0.0F) & (certain <= largest);
+            const Words decided = (certain > 0.0F) & (certain <= largest_finite);
             side[i] = decided & ((bits >> 31) | 1);  // the sign, spread out: -1 or 1
             const Floats distance = decided ? certain : unknown;
             nearest = distance < nearest ? distance : nearest;
@@ -141,7 +141,7 @@ void filter_blocks_plain(const FacePlanes& planes, const FilterLight& light,
         }
         FilteredBlock block{0, 0, infinity};
         for (std::size_t i = 0; i < size; ++i) {
-            const bool decided = certain[i] > 0.0F && certain[i] <= largest;
+            const bool decided = certain[i] > 0.0F && certain[i] <= largest_finite;
             const bool facing = decided && values[i] > 0.0F;
             block.decided = static_cast<std::uint16_t>(block.decided | (decided ? 1U << i : 0U));
             block.facing = static_cast<std::uint16_t>(block.facing | (facing ? 1U << i : 0U));
@@ -165,7 +165,7 @@ namespace {
     const __m256 reach = _mm256_set1_ps(light.reach);
     const __m256 sign = _mm256_set1_ps(-0.0F);
     const __m256 zero = _mm256_setzero_ps();
-    const __m256 most = _mm256_set1_ps(largest);
+    const __m256 most = _mm256_set1_ps(largest_finite);
     const __m256 unknown = _mm256_set1_ps(infinity);
     const float* nx = planes.normal_x.data() + first_block * 16;
     const float* ny = planes.normal_y.data() + first_block * 16;

@@ -51,7 +51,7 @@ struct HexNode {
     std::uint32_t child_count = 0;
 };
 
-Dual dual_of(const FacePlanes& planes, std::uint32_t face) {
+Dual dual_point(const FacePlanes& planes, std::uint32_t face) {
     return {planes.normal_x[face], planes.normal_y[face], planes.normal_z[face],
             planes.offset[face]};
 }
@@ -88,8 +88,8 @@ protected:
             const bool regular = known(edge.forth) && known(edge.back);
             (regular ? edges_ : special_).push_back(edge);
             if (!regular) continue;
-            world.add(dual_of(planes, edge.forth));
-            world.add(dual_of(planes, edge.back));
+            world.add(dual_point(planes, edge.forth));
+            world.add(dual_point(planes, edge.back));
         }
         if (edges_.empty()) return;
         struct Placed {
@@ -99,8 +99,8 @@ protected:
         std::vector<Placed> placed;
         placed.reserve(edges_.size());
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-            const Dual middle =
-                0.5F * dual_of(planes, edges_[e].forth) + 0.5F * dual_of(planes, edges_[e].back);
+            const Dual middle = 0.5F * dual_point(planes, edges_[e].forth) +
+                                0.5F * dual_point(planes, edges_[e].back);
             placed.push_back({path_of(middle, world), e});
         }
         std::ranges::stable_sort(placed, {}, &Placed::path);
@@ -182,7 +182,7 @@ private:
             if (node.child_count > 0) continue;
             for (std::uint32_t e = node.first; e < node.first + node.count; ++e) {
                 for (const std::uint32_t face : {edges_[e].forth, edges_[e].back}) {
-                    node.box.add(dual_of(planes, face));
+                    node.box.add(dual_point(planes, face));
                     node.error = std::max(node.error, planes.error[face]);
                 }
             }
