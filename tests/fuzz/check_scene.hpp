@@ -36,6 +36,14 @@ inline void require_good_scene(const scene::Scene& scene) {
             require(instance.mesh != nullptr, "an instance has a mesh");
             require_good_mesh(scene, *instance.mesh);
         });
+    scene.registry.each<scene::Deformed>([&](scene::Entity, const scene::Deformed& deformed) {
+        require(deformed.positions.size() == deformed.mesh->positions.size() &&
+                    deformed.normals.size() == deformed.positions.size(),
+                "a deformed instance has the vertices of its mesh");
+        for (const glm::vec3& normal : deformed.normals) {
+            require(std::abs(glm::length(normal) - 1.0F) < 1e-4F, "deformed normals are unit");
+        }
+    });
     auto system = shadows::ShadowSystem::create();
     auto frame = system->begin_frame();
     scene::ShadowAdapter adapter;

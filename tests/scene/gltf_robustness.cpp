@@ -2,9 +2,12 @@
 //
 // Broken files by the thousand: each loads or is refused in one sentence. Run under sanitizers,
 // this is where a reader shows that it never reads beyond its input.
+#include <cmath>
 #include <random>
 
 #include <gmock/gmock.h>
+
+#include <gnomon/scene/deform.hpp>
 
 #include "tests/scene/gltf_builder.hpp"
 
@@ -36,6 +39,10 @@ GltfBuilder rich_file() {
                    {"indices", strip},
                    {"mode", 5},
                    {"material", 0}});
+    const std::size_t deltas = file.positions(std::vector<glm::vec3>(4, glm::vec3(0, 1, 0)));
+    file.json["meshes"][skinned]["primitives"][0]["targets"] = {
+        {{"POSITION", deltas}, {"NORMAL", normal}}};
+    file.json["meshes"][skinned]["weights"] = {0.5};
     const std::size_t matrices = file.accessor_of(bind, f32, "MAT4", 16);
     const std::vector<std::uint8_t> pixel{200, 100, 50, 255};
     const std::size_t image = file.view(make_png(1, 1, pixel));
@@ -48,7 +55,22 @@ GltfBuilder rich_file() {
         {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
     const std::size_t joint = file.root({{"translation", {1, 2, 3}}, {"camera", 0}});
     file.json["skins"] = {{{"joints", {joint}}, {"inverseBindMatrices", matrices}}};
-    file.root({{"mesh", skinned}, {"skin", 0}});
+    const std::size_t body = file.root({{"mesh", skinned}, {"skin", 0}, {"weights", {0.25}}});
+    const std::vector<float> two_times{0, 1};
+    const std::vector<float> turns{0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0,
+                                   0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
+    const std::vector<std::uint8_t> blends{0, 255};
+    const std::size_t times = file.accessor_of(two_times, f32, "SCALAR", 1);
+    const std::size_t turning = file.accessor_of(turns, f32, "VEC4", 4);
+    const std::size_t blending = file.accessor_of(blends, u8, "SCALAR", 1);
+    file.json["accessors"][blending]["normalized"] = true;
+    file.json["animations"] = {
+        {{"samplers",
+          {{{"input", times}, {"output", turning}, {"interpolation", "CUBICSPLINE"}},
+           {{"input", times}, {"output", blending}}}},
+         {"channels",
+          {{{"sampler", 0}, {"target", {{"node", joint}, {"path", "rotation"}}}},
+           {{"sampler", 1}, {"target", {{"node", body}, {"path", "weights"}}}}}}}};
     file.root({{"mesh", skinned},
                {"extensions",
                 {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", position}}}}},
@@ -56,10 +78,29 @@ GltfBuilder rich_file() {
     return file;
 }
 
+/// What loads can be played, or says why not.
+void play(Scene& scene) {
+    for (const double time_s : {0.0, 0.3, 1.0, 17.9}) {
+        if (!scene.animations.empty()) {
+            ASSERT_TRUE(animate(scene, 0, time_s));
+        }
+        const Status deformed = deform(scene);
+        if (!deformed) {
+            ASSERT_THAT(deformed.error().message, testing::StartsWith("Node \""));
+        }
+        scene.registry.each<Deformed>([](Entity, const Deformed& instance) {
+            ASSERT_EQ(instance.positions.size(), instance.mesh->positions.size());
+            for (const glm::vec3& p : instance.positions) {
+                ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+            }
+        });
+    }
+}
+
 void expect_loads_or_says_why(const Bytes& bytes) {
     // A copy of its exact size: a read beyond its end is then one that a sanitizer sees.
     const Bytes exact(bytes.begin(), bytes.end());
-    const auto scene = load_glb(exact, "broken.glb");
+    auto scene = load_glb(exact, "broken.glb");
     if (scene) {
         scene->registry.each<MeshInstance>([](Entity, const MeshInstance& instance) {
             ASSERT_TRUE(instance.mesh);
@@ -67,6 +108,7 @@ void expect_loads_or_says_why(const Bytes& bytes) {
                 ASSERT_LT(index, instance.mesh->positions.size());
             }
         });
+        play(*scene);
         return;
     }
     const std::string& message = scene.error().message;
@@ -83,6 +125,8 @@ TEST(GltfRobustness, the_file_itself_is_good) {
     EXPECT_EQ(scene->registry.count<MeshInstance>(), 1U + 1U + 4U);
     ASSERT_EQ(scene->materials.size(), 2U);
     EXPECT_TRUE(scene->materials[1].base_color_image);
+    EXPECT_EQ(scene->animations.at(0).channels.size(), 2U);
+    EXPECT_EQ(scene->registry.count<Deformed>(), 1U + 4U);
 }
 
 TEST(GltfRobustness, every_prefix_is_refused) {
