@@ -217,7 +217,8 @@ TEST_P(EveryStrategy, FindsNothingForALightThatIsNotFinite) {
 
 TEST_P(EveryStrategy, TakesAMeshWithoutFaces) {
     const auto mesh = test::build({});
-    const Detection& found = strategy().create()->detect(*mesh, {{5, 6, 7, 1}}, NearCaps::Facing);
+    const auto detector = strategy().create();
+    const Detection& found = detector->detect(*mesh, {{5, 6, 7, 1}}, NearCaps::Facing);
     EXPECT_TRUE(is_empty(found));
     EXPECT_TRUE(found.silhouette.empty());
 }
