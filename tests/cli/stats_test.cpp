@@ -67,7 +67,9 @@ TEST_F(Stats, every_member_is_there) {
             EXPECT_EQ(reasons, pairs);
         }
         EXPECT_EQ(stats["frames"][0]["reasons"]["new"], pairs);
-        EXPECT_EQ(stats["frames"][0]["faces_tested"].get<std::uint64_t>(),
+        // Those that no box settles; all of them by the plain way.
+        EXPECT_GT(stats["frames"][0]["faces_tested"].get<std::uint64_t>(), 0U);
+        EXPECT_LE(stats["frames"][0]["faces_tested"].get<std::uint64_t>(),
                   3 * stats["triangles"].get<std::uint64_t>());
     }
 }

@@ -43,6 +43,7 @@ void APIENTRY poisoning_tex_storage(GLenum target, GLsizei levels, GLenum intern
         switch (internal) {
             case GL_R8UI:
             case GL_R32UI: fill(GL_RED_INTEGER, GL_UNSIGNED_BYTE, bytes.data()); break;
+            case GL_RGBA32UI: fill(GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, bytes.data()); break;
             case GL_DEPTH_COMPONENT32F:
                 fill(GL_DEPTH_COMPONENT, GL_FLOAT, &depth_stencil.first);
                 break;
