@@ -64,7 +64,8 @@ const Detection& Certificates::detect(const ShadowMesh& mesh, LightLocal light,
     const double way = sum_up(way_, displacement(light_, light));
     found_.changed = false;
     if (way > std::min(deadlines_.next(), castings_deadline_)) {
-        const bool far = !(way - way_ < far_);
+        const double step = way - way_;
+        const bool far = !(step < far_);
         way_ = way;
         light_ = light;
         if (far) {
@@ -72,6 +73,9 @@ const Detection& Certificates::detect(const ShadowMesh& mesh, LightLocal light,
             return found_;
         }
         renew(mesh);
+        // What was far from where the last search was need not be from here: steps by which much
+        // falls due each time are far as well.
+        if (blocks_.size() > deadlines_.values().size() / 8 + 8) far_ = std::min(far_, step);
     }
     found_.margin = std::max(0.0, sum_down(std::min(deadlines_.next(), castings_deadline_), -way));
     return found_;
