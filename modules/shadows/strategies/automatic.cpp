@@ -36,7 +36,7 @@ public:
 
 private:
     [[nodiscard]] Choice choose(const ShadowMesh& mesh, LightLocal light) const;
-    [[nodiscard]] bool is_small_step(LightLocal light) const;
+    [[nodiscard]] bool is_small_step(const ShadowMesh& mesh, LightLocal light) const;
 
     std::unique_ptr<SilhouetteDetector> simd_;
     std::unique_ptr<SilhouetteDetector> search_;
@@ -48,15 +48,22 @@ private:
     double searched_part_ = 0.0;  // of the edges, by the last search
 };
 
-bool Automatic::is_small_step(LightLocal light) const {
+bool Automatic::is_small_step(const ShadowMesh& mesh, LightLocal light) const {
     if (!last_ || last_->is_directional() != light.is_directional()) return false;
-    // How far is far is not known before there were certificates once.
-    if (certificates_ == nullptr) return true;
-    return displacement(*last_, light) < certificates_->far();
+    const double step = displacement(*last_, light);
+    if (certificates_ != nullptr) return step < certificates_->far();
+    // How far is far is not known before there were certificates once. They are not worth a try
+    // where the light goes some three degrees round the mesh at once.
+    constexpr double far = 0.05;
+    const double distance =
+        light.is_directional()
+            ? 1.0
+            : glm::length(glm::dvec3(light.position) - glm::dvec3(mesh.planes().origin));
+    return step < far * distance;
 }
 
 Choice Automatic::choose(const ShadowMesh& mesh, LightLocal light) const {
-    if (!mesh.is_deformed() && is_small_step(light)) return Choice::SmallStep;
+    if (!mesh.is_deformed() && is_small_step(mesh, light)) return Choice::SmallStep;
     const Choice choice = choose_for_jump(mesh);
     const bool large = searched_part_ > large_part && since_search_ < patience;
     return choice == Choice::Jump && large ? Choice::LargeSilhouette : choice;
