@@ -279,7 +279,8 @@ int run(int argc, char** argv) {
         return 0;
     }
     if (list_silhouettes) {
-        fmt::print("auto: chosen for each pair and frame\n");
+        const auto& automatic = shadows::automatic_strategy();
+        fmt::print("{}: {}\n", automatic.name, automatic.summary);
         for (const auto& strategy : shadows::silhouette_strategies()) {
             fmt::print("{}: {}\n", strategy.name, strategy.summary);
         }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "internal/quad_pair.hpp"
+#include "internal/displacement.hpp"
 #include "internal/strategies.hpp"
 
 namespace gnomon::shadows::internal {
@@ -20,18 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
-}
-
-// How far the light went, in the measure of Facing::margin: metres for a point, on the unit sphere
-// for a direction.
-double displacement(const LightLocal& from, const LightLocal& to) {
-    const glm::dvec3 a(from.position);
-    const glm::dvec3 b(to.position);
-    if (!from.is_directional()) return glm::length(b - a);
-    const double length_a = glm::length(a);
-    const double length_b = glm::length(b);
-    if (!(length_a > 0.0) || !(length_b > 0.0)) return std::numeric_limits<double>::infinity();
-    return glm::length(b / length_b - a / length_a) + 4.0 * std::numeric_limits<double>::epsilon();
 }
 
 Reason what_moved(const CasterState& caster, const LightState& light) {
