@@ -183,6 +183,30 @@ Result<render::Overlays> parse_overlays(std::string_view text) {
     return overlays;
 }
 
+Result<shadows::FillOptions> parse_without(std::string_view text) {
+    shadows::FillOptions fill;
+    for (const std::string_view part : split(text, ',')) {
+        if (part == "view-cull") {
+            fill.cull_by_view = false;
+        } else if (part == "receiver-cull") {
+            fill.cull_by_receivers = false;
+        } else if (part == "clamp") {
+            fill.clamp = false;
+        } else if (part == "scissor") {
+            fill.scissor = false;
+        } else if (part == "all") {
+            fill = shadows::FillOptions::none();
+        } else {
+            return fail(
+                ErrorCode::InvalidInput,
+                fmt::format(
+                    "--without: \"{}\" is none of view-cull, receiver-cull, clamp, scissor, all.",
+                    part));
+        }
+    }
+    return fill;
+}
+
 std::string one_line(std::string text) {
     for (char& c : text) {
         const auto byte = static_cast<unsigned char>(c);

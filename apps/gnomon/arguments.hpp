@@ -13,6 +13,7 @@
 
 #include <gnomon/core/result.hpp>
 #include <gnomon/render/renderer.hpp>
+#include <gnomon/shadows/receiver.hpp>
 
 namespace gnomon::cli {
 
@@ -50,6 +51,8 @@ struct Motion {
 [[nodiscard]] Result<LightArgument> parse_light(std::string_view text);
 [[nodiscard]] Result<Motion> parse_motion(std::string_view text);
 [[nodiscard]] Result<render::Overlays> parse_overlays(std::string_view text);
+/// What is named is left out: view-cull, receiver-cull, clamp, scissor, or all of them.
+[[nodiscard]] Result<shadows::FillOptions> parse_without(std::string_view text);
 
 /// `text` with every control character made a space: names in files may hold line breaks and
 /// terminal codes, and a message is one line.

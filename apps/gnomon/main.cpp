@@ -175,6 +175,12 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
             "Whether it is proved that no point lies under more layers than the stencil counts, or "
             "you promise it, so that nothing is bounded nor split. Default proved")
         ->check(CLI::IsMember({"proved", "promised"}));
+    render
+        ->add_option_function<std::string>(
+            "--without", parsed_into(o.fill, cli::parse_without),
+            "Savings of fill to do without, for measurements: view-cull,receiver-cull,clamp,"
+            "scissor; all")
+        ->type_name("LIST");
     render->add_flag("--list-silhouettes", list_silhouettes, "List the names for --silhouette");
     render
         ->add_option_function<std::string>("--show", parsed_into(o.overlays, cli::parse_overlays),

@@ -196,7 +196,9 @@ void show_progress(std::uint32_t done, std::uint32_t frames, Clock::time_point s
 Status run_render(const RenderOptions& options) {
     auto system = shadows::ShadowSystem::create({.force_technique = options.technique,
                                                  .silhouette = options.silhouette,
-                                                 .layer_bound = options.layer_bound});
+                                                 .layer_bound = options.layer_bound,
+                                                 .receivers = shadows::Receivers::Submitted,
+                                                 .fill = options.fill});
     if (!system) return forward_error(system);
     if (const Status writable = check_outputs(options); !writable) return writable;
     auto shot = make_shot(options);

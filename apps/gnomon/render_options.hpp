@@ -40,6 +40,7 @@ struct RenderOptions {
     shadows::NearCaps near_caps = shadows::NearCaps::Facing;
     std::string silhouette = "auto";
     shadows::LayerBound layer_bound = shadows::LayerBound::Proved;
+    shadows::FillOptions fill = {};
     render::Overlays overlays = {};
     std::uint32_t frames = 1;
     Motion motion = {};

@@ -27,6 +27,8 @@ std::string to_json(const RunRecord& run) {
                           {"submit_ms", frame.submit_ms},
                           {"pairs", s.pairs},
                           {"pairs_culled", s.pairs_culled},
+                          {"pairs_hidden", s.pairs_hidden},
+                          {"pairs_clamped", s.pairs_clamped},
                           {"pairs_redetected", s.pairs_redetected},
                           {"pairs_reused", s.pairs_reused},
                           {"zpass_pairs", s.zpass_pairs},

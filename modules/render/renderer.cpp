@@ -403,7 +403,8 @@ Status Renderer::render(const FrameInput& input) {
     const auto lights =
         internal::frame_lights(input.scene, *s.bounds, input.shadows.lights, input.view);
     if (const Status done = s.write_frame_uniforms(input, lights); !done) return done;
-    if (const Status done = s.shadows->prepare(input.shadows, input.view); !done) return done;
+    if (const Status done = s.shadows->prepare(input.shadows, input.view, {s.desc.width, s.desc.height});
+        !done) return done;
 
     gpu::CommandEncoder encoder = s.device->create_command_encoder("frame");
     const auto submit = [&]() -> Status {

@@ -112,11 +112,36 @@ Result<std::vector<shadows::Caster>> ShadowAdapter::casters(const Scene& scene, 
     return casters;
 }
 
+void ShadowAdapter::submit_receivers(const Scene& scene, shadows::ShadowSystem::Frame& frame) {
+    for (auto& [key, known] : bounds_) known.used = false;
+    scene.registry.each<Receiver, MeshInstance, WorldTransform>([&](Entity entity, const Receiver&,
+                                                                    const MeshInstance& instance,
+                                                                    const WorldTransform& world) {
+        const Geometry geometry = geometry_of(scene.registry, entity, instance, world);
+        if (geometry.positions.empty()) return;
+        KnownBounds& known = bounds_[entity.key()];
+        known.used = true;
+        if (known.revision != geometry.revision || known.mesh.lock() != instance.mesh) {
+            known.mesh = instance.mesh;
+            known.revision = geometry.revision;
+            known.min = known.max = geometry.positions[0];
+            for (const glm::vec3& p : geometry.positions) {
+                known.min = glm::min(known.min, p);
+                known.max = glm::max(known.max, p);
+            }
+        }
+        frame.receiver(
+            {.key = entity.key(), .bounds = {geometry.world_from_positions, known.min, known.max}});
+    });
+    std::erase_if(bounds_, [](const auto& entry) { return !entry.second.used; });
+}
+
 Status ShadowAdapter::submit(const Scene& scene, shadows::ShadowSystem::Frame& frame, bool culled,
                              shadows::NearCaps near_caps) {
     const auto casters = this->casters(scene, culled, near_caps);
     if (!casters) return forward_error(casters);
     for (const shadows::Caster& caster : *casters) frame.caster(caster);
+    if (frame.takes_receivers()) submit_receivers(scene, frame);
     const auto submit_light = [&](Entity entity, const auto&) {
         if (const auto light = shadow_light(scene.registry, entity)) frame.light(*light);
     };

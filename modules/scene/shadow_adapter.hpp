@@ -20,7 +20,8 @@ namespace gnomon::scene {
 
 class ShadowAdapter {
 public:
-    /// Submits every Caster and every light. Shadow meshes are made the first time a mesh is met
+    /// Submits every Caster and every light, and where the system takes receivers every Receiver.
+    /// Shadow meshes are made the first time a mesh is met
     /// and kept while it lives; those of deformed instances, from the very positions that are
     /// drawn, whenever Deformed::revision changes. `culled`: back faces are not drawn, so
     /// depth-pass needs caps. `near_caps` is for casters that are drawn whole; what is hidden or
@@ -42,6 +43,7 @@ public:
         const std::shared_ptr<const Mesh>& mesh);
 
 private:
+    void submit_receivers(const Scene& scene, shadows::ShadowSystem::Frame& frame);
     [[nodiscard]] Result<std::shared_ptr<const shadows::ShadowMesh>> deformed_mesh(
         Entity entity, const std::shared_ptr<const Mesh>& mesh, const Geometry& geometry);
 
@@ -55,7 +57,15 @@ private:
         std::uint64_t revision = 0;
         bool used = true;  // by the casters() at work
     };
+    struct KnownBounds {
+        std::weak_ptr<const Mesh> mesh;
+        std::uint64_t revision = 0;
+        glm::vec3 min{0.0F};
+        glm::vec3 max{0.0F};
+        bool used = true;  // by the submit() at work
+    };
     std::unordered_map<const Mesh*, Known> known_;
+    std::unordered_map<std::uint64_t, KnownBounds> bounds_;      // by entity
     std::unordered_map<std::uint64_t, KnownDeformed> deformed_;  // by entity
 };
 

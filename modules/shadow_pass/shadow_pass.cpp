@@ -110,6 +110,7 @@ struct ShadowPass::State {
     // What was prepared last; 0 for a list of no system, or after a failure.
     std::uint64_t prepared_revision = 0;
     shadows::View prepared_view;
+    TargetSize target;  // zero: not known
 
     struct Recorded {
         gpu::BufferId vertices;
@@ -124,6 +125,7 @@ struct ShadowPass::State {
         std::vector<Run> near_caps;  // for Part::Caps, where it may be asked for
         shadows::QuadFacing quads = shadows::QuadFacing::None;
         gpu::BindGroupId quad_textures = {};
+        shadows::PixelRect scissor = {};  // of State::target, if that is known
     };
     std::vector<Recorded> recorded;
     std::vector<shadows::LightDraws> lights;
@@ -148,6 +150,15 @@ struct ShadowPass::State {
     Result<gpu::BufferId> extruded_vertices_of(std::size_t index, const shadows::VolumeDraw& draw);
     Result<VolumeRun> indices_of(const shadows::VolumeDraw& draw, std::span<const Run> runs);
     void free_unused();
+    [[nodiscard]] shadows::PixelRect scissor_of(const shadows::ScreenBounds& bounds) const {
+        return shadows::pixels_of(bounds, target.width, target.height);
+    }
+    [[nodiscard]] shadows::PixelRect everything() const {
+        return {0, 0, target.width, target.height};
+    }
+    // `current`: what is set.
+    static void set_scissor(gpu::RenderPassEncoder& encoder, const shadows::PixelRect& wanted,
+                            shadows::PixelRect& current);
     // `bound`: the chunk of indices that is, if any.
     void draw(gpu::RenderPassEncoder& encoder, const Recorded& volume, const Run& run,
               std::optional<std::uint32_t>& bound) const;
@@ -382,9 +393,10 @@ ShadowPass::ShadowPass(ShadowPass&&) noexcept = default;
 ShadowPass& ShadowPass::operator=(ShadowPass&&) noexcept = default;
 ShadowPass::~ShadowPass() = default;
 
-Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& view) {
+Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& view,
+                           TargetSize target) {
     State& s = *state_;
-    if (list.revision != 0 && list.revision == s.prepared_revision &&
+    if (list.revision != 0 && list.revision == s.prepared_revision && target == s.target &&
         is_same_view(view, s.prepared_view)) {
         s.stats.uploaded_bytes = 0;
         return {};
@@ -393,9 +405,10 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
     const bool any_quads = std::any_of(list.draws.begin(), list.draws.end(),
                                        [](const auto& draw) { return draw.quads.has_value(); });
     if (any_quads && (s.desc.extrusion == ExtrusionPath::Cpu || s.desc.expand_quads)) {
-        return prepare(internal::without_quads(list), view);
+        return prepare(internal::without_quads(list), view, target);
     }
     ++s.generation;
+    s.target = target;
     s.stats = {};
     s.recorded.clear();
     s.lights = list.lights;
@@ -420,6 +433,12 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
     const bool unclipped = finite && s.device->caps().features.unclipped_depth;
     for (std::size_t i = 0; i < list.draws.size(); ++i) {
         const shadows::VolumeDraw& draw = list.draws[i];
+        if (draw.bounds.empty()) {
+            s.recorded.emplace_back();
+            s.recorded.back().batch = draw.batch;
+            ++s.stats.hidden_draws;
+            continue;
+        }
         if (finite && !unclipped && draw.technique == Technique::DepthFail) {
             return fail(ErrorCode::Unsupported,
                         "Caster " + std::to_string(draw.caster) + " needs depth-fail for light " +
@@ -444,7 +463,8 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
                  .volume = draw.volume,
                  .near_caps = {},
                  .quads = draw.quads->facing,
-                 .quad_textures = *textures});
+                 .quad_textures = *textures,
+                 .scissor = s.scissor_of(draw.bounds)});
             s.stats.draw_calls += s.recorded.back().runs.size();
             continue;
         }
@@ -467,6 +487,7 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
                               draw.technique, std::move(runs), draw.batch, draw.volume,
                               s.desc.cap_parts ? internal::near_caps_of(*draw.mesh, *draw.volume)
                                                : std::vector<Run>{}});
+        s.recorded.back().scissor = s.scissor_of(draw.bounds);
         s.stats.draw_calls += s.recorded.back().runs.size();
     }
     if (const Status written = s.write_uniforms(list, view); !written) return written;
@@ -492,6 +513,13 @@ void ShadowPass::State::draw(gpu::RenderPassEncoder& encoder, const Recorded& vo
     encoder.draw_indexed(run.count, 1, where.first + first, run.base_vertex);
 }
 
+void ShadowPass::State::set_scissor(gpu::RenderPassEncoder& encoder,
+                                    const shadows::PixelRect& wanted, shadows::PixelRect& current) {
+    if (wanted == current) return;
+    encoder.set_scissor_rect(wanted.x, wanted.y, wanted.width, wanted.height);
+    current = wanted;
+}
+
 void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) const {
     const State& s = *state_;
     const shadows::LightDraws& of_light = s.lights[light];
@@ -499,13 +527,17 @@ void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) cons
     const bool batched = of_light.batches > 1;
     const Pipelines& pipelines = batched ? s.batching->pipelines : s.pipelines;
     const gpu::RenderPipeline* current = nullptr;
+    shadows::PixelRect scissor = s.everything();
     std::optional<std::uint32_t> indices;
     for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
         const State::Recorded& volume = s.recorded[i];
         if (batched && i > of_light.first && volume.batch != s.recorded[i - 1].batch) {
+            State::set_scissor(encoder, s.everything(), scissor);
             s.batching->fold.fold(encoder);
             current = nullptr;
         }
+        if (volume.runs.empty()) continue;
+        State::set_scissor(encoder, volume.scissor, scissor);
         const std::uint32_t offset = i * s.uniform_stride;
         const bool quads = volume.quads != shadows::QuadFacing::None;
         if (quads) {
@@ -528,6 +560,7 @@ void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) cons
             }
         }
     }
+    State::set_scissor(encoder, s.everything(), scissor);
     if (batched) {
         s.batching->fold.fold(encoder);
         s.batching->fold.finish(encoder);
@@ -543,8 +576,8 @@ void ShadowPass::record_part(gpu::RenderPassEncoder& encoder, std::size_t light,
     std::optional<std::uint32_t> indices;
     for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
         const State::Recorded& recorded = s.recorded[i];
+        if (recorded.runs.empty() || recorded.quads != shadows::QuadFacing::None) continue;
         const shadows::Volume& volume = *recorded.volume;
-        if (recorded.quads != shadows::QuadFacing::None) continue;
         const std::uint32_t offset = i * s.uniform_stride;
         encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
         encoder.set_vertex_buffer(0, recorded.vertices);

@@ -93,11 +93,19 @@ enum class Part : std::uint8_t {
     Silhouettes,  ///< lines
 };
 
+/// In pixels; of the whole attachments, which the viewport covers.
+struct TargetSize {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    bool operator==(const TargetSize&) const = default;
+};
+
 /// Of the last prepare().
 struct PassStats {
     std::uint64_t uploaded_bytes = 0;
     std::uint64_t draw_calls = 0;        ///< that record() makes for all lights together
     std::uint64_t index_bytes_held = 0;  ///< index memory in use
+    std::uint64_t hidden_draws = 0;      ///< volumes with empty bounds: not drawn
 };
 
 class ShadowPass {
@@ -112,14 +120,19 @@ public:
     /// Uploads what the list needs and the GPU does not have: where nothing moved but the camera,
     /// 256 bytes a volume of matrices. Nothing is done for the list of the last call
     /// (DrawList::revision) and the same view. The list is remembered until the next call.
-    [[nodiscard]] Status prepare(const shadows::DrawList& list, const shadows::View& view);
+    ///
+    /// `target` is the size of what record() will draw into: volumes are then cut to the pixels
+    /// that they can change (VolumeDraw::bounds). Without it none is.
+    [[nodiscard]] Status prepare(const shadows::DrawList& list, const shadows::View& view,
+                                 TargetSize target = {});
 
     /// Records the volumes of list.lights[light]. The pass's stencil must have been cleared to 0;
     /// its depth buffer is read, not written. Afterwards the stencil is 0 where the light arrives;
     /// elsewhere it is the count, or 255 where the light's volumes come in several batches
     /// (LightDraws::batches). Those are folded in place, by draws that cover the viewport: one a
-    /// batch and one more. Leaves pipeline, bind groups 0 and 1, vertex slot 0, index buffer and
-    /// stencil reference changed.
+    /// batch and one more. Leaves pipeline, bind groups 0 and 1, vertex slot 0, index buffer,
+    /// stencil reference and, where prepare() was told the target's size, the scissor changed: it
+    /// covers the target.
     void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
 
     // For debug views: draws one part of a light's volumes with a pipeline of the caller's, whose

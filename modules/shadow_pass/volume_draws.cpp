@@ -79,10 +79,7 @@ std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& 
 std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const shadows::Volume& volume,
                          const ShadowPassDesc& desc) {
     const bool near = draw.technique == shadows::Technique::DepthFail || draw.near_caps;
-    // A far cap at infinity is never in front of anything; a finite one closes the volume for
-    // depth-pass as well.
-    const bool far =
-        draw.technique == shadows::Technique::DepthFail || draw.extrusion.offset.w != 0.0F;
+    const bool far = draw.far_caps;
     const bool open = desc.averted_faces == AvertedFaces::LeftToShading;
     const Role cap = desc.cap_bias.none() ? Role::Volume : Role::Cap;
     Runs runs(volume);

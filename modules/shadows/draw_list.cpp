@@ -65,6 +65,15 @@ double finite_reach(PairState& pair, const CasterState& caster, const Light& lig
     return std::clamp(std::isfinite(reach) ? reach : 1.0, 1.01, most);
 }
 
+void place_on_plane(VolumeDraw& draw, const PairState& pair, const LightState& light,
+                    const internal::Reach& reach, double distance) {
+    const glm::dvec4 plane = internal::plane_in(draw.world_from_local, reach.normal, distance);
+    const LightLocal local = internal::current_light(pair, light);
+    draw.world_from_far =
+        draw.world_from_local * internal::projection_onto(plane, glm::dvec4(local.position));
+    draw.extrusion = {1.0F, glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)};
+}
+
 // `reach` is for finite far vertices alone.
 void place_far_vertices(VolumeDraw& draw, const PairState& pair, const LightState& light,
                         bool infinite, double reach) {
@@ -156,7 +165,8 @@ void ShadowSystem::State::drop_draws() {
         LightState& light = lights[listed[e]];
         if (!light.listed) continue;  // gone, maybe with another in its place
         const std::size_t kept_before = kept;
-        const auto& [key, first, count, batches] = list.lights[e];
+        const std::uint32_t first = list.lights[e].first;
+        const std::uint32_t count = list.lights[e].count;
         for (std::uint32_t i = 0; !light.all_anew && i < count; ++i) {
             const std::uint32_t caster = origins[first + i].caster;
             if (light.pieces.empty()) {
@@ -315,7 +325,20 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
     const Volume& volume = light.pieces.empty() ? *draw.volume : *pair.extra->whole;
     if (all) origin.silhouette_edges = origin.first ? volume.silhouette_edges : 0;
     bool differs = all;
-    if (all || !infinite) {
+    const internal::ShadowHull hull(bounds_of(caster), light.light);
+    if (!origin.reach_known) {
+        origin.reach = {};
+        if (!caster.pose.singular) {
+            origin.reach = fill_terms().reach(hull);
+        }
+        origin.reach_known = true;
+    }
+    const internal::Reach& reaches = origin.reach;
+    const double plane = internal::plane_distance(reaches, screen->eye());
+    if (reaches.clamped) {
+        place_on_plane(draw, pair, light, reaches, plane);
+        differs = true;
+    } else if (all || !infinite) {
         const QuadCasting* quads = draw.quads ? &*draw.quads : nullptr;
         const double reach =
             infinite ? 0.0 : finite_reach(pair, caster, light.light, volume, quads, seen);
@@ -330,6 +353,19 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
     const Technique technique = options.force_technique ? *options.force_technique : choose();
     differs = differs || technique != draw.technique;
     draw.technique = origin.technique = technique;
+    // At infinity a far cap is in front of nothing; a finite one closes the volume for depth-pass.
+    draw.far_caps = technique == Technique::DepthFail || draw.extrusion.offset.w != 0.0F;
+    ScreenBounds bounds;
+    if (!caster.pose.singular) {
+        if (hidden_by(fill_terms(), hull, reaches) != internal::Hidden::No) {
+            bounds = ScreenBounds::nothing();
+        } else if (options.fill.scissor) {
+            bounds = screen->of(hull, reaches, plane);
+        }
+    }
+    differs = differs || bounds != draw.bounds;
+    draw.bounds = bounds;
+    origin.hidden = bounds.empty();
     return differs;
 }
 
@@ -338,11 +374,18 @@ void ShadowSystem::State::count_draws() {
     for (const DrawOrigin& origin : origins) {
         stats.silhouette_edges += origin.silhouette_edges;
         if (!origin.first) continue;
+        stats.pairs_hidden += origin.hidden ? 1 : 0;
+        stats.pairs_clamped += origin.reach.clamped ? 1 : 0;
         stats.quad_pairs += origin.quads ? 1 : 0;
         ++(origin.technique == Technique::DepthPass ? stats.zpass_pairs : stats.zfail_pairs);
     }
-    for (const std::uint32_t l : listed) {
-        const LightState& light = lights[l];
+    for (std::size_t e = 0; e < listed.size(); ++e) {
+        const LightState& light = lights[listed[e]];
+        ScreenBounds& bounds = list.lights[e].bounds;
+        bounds = ScreenBounds::nothing();
+        for (std::uint32_t i = light.first; i < light.first + light.count; ++i) {
+            bounds = united(bounds, list.draws[i].bounds);
+        }
         stats.stencil_batches += light.count > 0 ? light.memory.batches : 0;
         stats.split_lights += light.pieces.empty() ? 0 : 1;
     }

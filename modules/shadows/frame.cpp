@@ -72,6 +72,13 @@ private:
     std::unique_ptr<Scratch> scratch_;
 };
 
+std::size_t place_of(Reason reason) { return static_cast<std::size_t>(reason); }
+
+// For other views or receivers.
+bool waits(Reason reason) {
+    return reason == Reason::OutOfView || reason == Reason::ReachesNothing;
+}
+
 template <class T>
 void give_back(std::vector<T>& reused) {
     reused.clear();
@@ -107,20 +114,24 @@ void ShadowSystem::State::finish(const View& now) {
     if (submission == Submission::Full) drop_unsubmitted();
     if (frame % frames_to_rest == 0) let_detectors_rest();
     const bool view_changed = !view || !same_view(*view, now);
-    if (!view_changed && !came_or_went && !lights_changed && changed_casters.empty()) {
+    if (!view_changed && !came_or_went && !lights_changed && !receivers_changed &&
+        changed_casters.empty()) {
         if (!settled) settle();
         return;
     }
     forget_reasons();
     list.stats = {};
     view = now;
+    screen.emplace(now);
     const bool infinite = now.projection == ProjectionKind::InfinitePerspective;
     const FarVertices far = infinite ? FarVertices::AtInfinity : FarVertices::Finite;
-    const bool all = far != far_vertices;
+    const bool all = far != far_vertices || receivers_changed;
+    if (receivers_changed) plant_receivers();
     far_vertices = far;
     casters.sort();
     lights.sort();
     collect_work(all);
+    if (!all && view_changed) take_up_deferred();
     update_pairs();
     bool rearranged = place_results();
     const auto start = std::chrono::steady_clock::now();
@@ -159,7 +170,7 @@ void ShadowSystem::State::forget_reasons() {
         LightState& light = lights[item.light];
         if (item.caster >= light.pairs.size()) continue;  // gone, another in its place
         PairState& pair = light.pairs[item.caster];
-        if (pair.reason != Reason::OutOfRange) pair.reason = Reason::Unchanged;
+        if (!internal::is_culled(pair.reason)) pair.reason = Reason::Unchanged;
         if (pair.draw != internal::no_draw) {
             list.draws[light.first + pair.draw].reason = Reason::Unchanged;
         }
@@ -194,11 +205,33 @@ void ShadowSystem::State::collect_work(bool all) {
         // What is easier made anew than kept in step.
         if (whole_row || bounds_before.size() > casters.size() / 4) light.grid = nullptr;
         for (const std::uint32_t c : whole_row ? casters.by_key() : changed) {
-            work.push_back({.light = l, .caster = c, .made = nullptr, .quads = nullptr});
+            work.push_back({.light = l, .caster = c});
         }
     }
     for (const auto& [caster, bounds] : bounds_before) take_from_grids(caster, bounds);
     bounds_before.clear();
+}
+
+void ShadowSystem::State::plant_receivers() {
+    receivers.sort();
+    std::vector<internal::Aabb> boxes;
+    boxes.reserve(receivers.size());
+    for (const std::uint32_t r : receivers.by_key()) boxes.push_back(receivers[r].box);
+    receiver_tree.build(boxes);
+}
+
+// Of those that could not be seen, some may be now.
+void ShadowSystem::State::take_up_deferred() {
+    std::erase_if(deferred, [&](const auto& place) {
+        const auto [l, c] = place;
+        if (c >= lights[l].pairs.size()) return true;
+        const Reason reason = lights[l].pairs[c].reason;
+        return reason != Reason::OutOfView && reason != Reason::ReachesNothing;
+    });
+    for (const auto& [l, c] : deferred) {
+        if (lights[l].changed || casters[c].changed) continue;  // has been taken up
+        work.push_back({.light = l, .caster = c});
+    }
 }
 
 void ShadowSystem::State::update_pairs() {
@@ -228,7 +261,7 @@ void ShadowSystem::State::update_one(PairWork& item, Scratch& scratch, FrameStat
     const CasterState& caster = casters[item.caster];
     PairState& pair = light.pairs[item.caster];
     const Volume* volume = volume_of(light, item.caster);
-    item.was_culled = pair.reason == Reason::OutOfRange;
+    item.was = pair.reason;
     item.had_volume = volume != nullptr;
     if (!caster.pose.finite || !internal::is_finite(light.light.position_world) ||
         out_of_range(caster, light.light)) {
@@ -247,9 +280,12 @@ bool ShadowSystem::State::place_results() {
     for (PairWork& item : work) {
         LightState& light = lights[item.light];
         PairState& pair = light.pairs[item.caster];
-        const bool is_culled = pair.reason == Reason::OutOfRange;
-        if (item.was_culled) --light.culled;
-        if (is_culled) ++light.culled;
+        const bool is_culled = internal::is_culled(pair.reason);
+        if (internal::is_culled(item.was)) --light.culled[place_of(item.was)];
+        if (is_culled) ++light.culled[place_of(pair.reason)];
+        if (waits(pair.reason) && !waits(item.was)) {
+            deferred.emplace_back(item.light, item.caster);
+        }
         light.worked_on = true;
         const bool changes = is_culled ? item.had_volume : pair.reason != Reason::Unchanged;
         // Volumes that lay as they do may lie over others now.
@@ -261,7 +297,12 @@ bool ShadowSystem::State::place_results() {
         }
         if (item.made != nullptr) place_volume(light, pair, item);
         const bool drawn = pair.draw != internal::no_draw;
-        if (drawn) origins[light.first + pair.draw].fill = DrawOrigin::Fill::All;
+        if (drawn) {
+            DrawOrigin& origin = origins[light.first + pair.draw];
+            origin.fill = DrawOrigin::Fill::All;
+            origin.reach = item.reach;
+            origin.reach_known = true;
+        }
         const bool has_volume = drawn || (pair.extra != nullptr && pair.extra->whole != nullptr);
         rearranged = rearranged || item.had_volume != has_volume;
         if (pair.extra == nullptr) continue;
@@ -344,6 +385,15 @@ bool ShadowSystem::State::piles_up(LightState& light) {
     return true;
 }
 
+// As the pair was last brought up to date for.
+FarVertices ShadowSystem::State::far_vertices_of(const LightState& light,
+                                                 std::uint32_t caster) const {
+    if (!light.pairs[caster].is(PairFlag::FiniteFar)) return FarVertices::AtInfinity;
+    const internal::ShadowHull hull(bounds_of(casters[caster]), light.light);
+    const bool clamped = fill_terms().reach(hull).clamped;
+    return clamped ? FarVertices::OnPlane : FarVertices::Finite;
+}
+
 // What the GPU finds has a coarse bound only. Where that piles up to more than can be counted, the
 // CPU finds it after all: so a light that is split has no quads. True where draws go.
 bool ShadowSystem::State::take_back_quads(LightState& light) {
@@ -352,7 +402,7 @@ bool ShadowSystem::State::take_back_quads(LightState& light) {
     for (const std::uint32_t c : casters.by_key()) {
         if (quads_of(light, c) == nullptr) continue;
         PairState& pair = light.pairs[c];
-        PairWork item{.caster = c, .made = nullptr, .quads = nullptr};
+        PairWork item{.caster = c, .far_vertices = far_vertices_of(light, c)};
         internal::take_back_from_gpu(pair, casters[c], light, terms(), *scratch, item, list.stats);
         light.layers[c] = item.layers;
         const bool was_drawn = pair.draw != internal::no_draw;
@@ -421,6 +471,7 @@ void ShadowSystem::State::tidy_up() {
         light.all_anew = light.gained = light.touched = light.worked_on = false;
     }
     lights_changed = false;
+    receivers_changed = false;
     came_or_went = false;
     settled = false;
 }
@@ -447,11 +498,15 @@ void ShadowSystem::State::count_pairs() {
     stats.lights = lights.size();
     stats.pairs = stats.casters * stats.lights;
     stats.pairs_culled = 0;
-    for (const std::uint32_t l : lights.by_key()) stats.pairs_culled += lights[l].culled;
-    stats.pairs_reused = stats.pairs - stats.pairs_culled - stats.pairs_redetected;
     auto& reasons = stats.reasons;
-    auto& unchanged = reasons[static_cast<std::size_t>(Reason::Unchanged)];
-    reasons[static_cast<std::size_t>(Reason::OutOfRange)] = stats.pairs_culled;
+    auto& unchanged = reasons[place_of(Reason::Unchanged)];
+    for (const Reason culled : {Reason::OutOfRange, Reason::OutOfView, Reason::ReachesNothing}) {
+        auto& pairs = reasons[place_of(culled)];
+        pairs = 0;
+        for (const std::uint32_t l : lights.by_key()) pairs += lights[l].culled[place_of(culled)];
+        stats.pairs_culled += pairs;
+    }
+    stats.pairs_reused = stats.pairs - stats.pairs_culled - stats.pairs_redetected;
     unchanged = 0;
     unchanged = stats.pairs - std::accumulate(reasons.begin(), reasons.end(), std::uint64_t{0});
 }

@@ -6,11 +6,13 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <optional>
 #include <utility>
 
-#include "internal/quad_pair.hpp"
 #include "internal/displacement.hpp"
+#include "internal/quad_pair.hpp"
 #include "internal/strategies.hpp"
 
 namespace gnomon::shadows::internal {
@@ -65,10 +67,10 @@ double distance_to_bounds(const ShadowMesh& mesh, LightLocal light) {
 }
 
 // What the pair's volume was decided for.
-void remember(PairState& pair, const CasterState& caster, LightLocal light, const FrameTerms& terms,
+void remember(PairState& pair, const CasterState& caster, LightLocal light, FarVertices far,
               double margin) {
     pair.set(PairFlag::Known, true);
-    pair.set(PairFlag::FiniteFar, terms.far_vertices == FarVertices::Finite);
+    pair.set(PairFlag::FiniteFar, far != FarVertices::AtInfinity);
     pair.set(PairFlag::AvertedCaps, caster.near_caps == NearCaps::Averted);
     pair.set(PairFlag::Flattened, caster.pose.singular);
     pair.detected = glm::vec3(light.position);
@@ -93,10 +95,21 @@ SilhouetteDetector& detector_of(PairState& pair, const SilhouetteStrategy& strat
     return *scratch.detectors.emplace_back(&strategy, strategy.create()).second;
 }
 
-// `same_kind`: the volume that the pair has was made on the same terms, for another light.
+// A fan has a triangle for each silhouette edge, long ones across the whole cap: faces are better
+// where they are not many more.
+FarCap flat_cap(std::span<const FaceRun> casting, std::size_t silhouette_edges) {
+    std::uint64_t faces = 0;
+    for (const FaceRun& run : casting) {
+        faces += run.count * static_cast<std::uint64_t>(std::abs(run.weight));
+    }
+    return faces > 2 * silhouette_edges ? FarCap::Fan : FarCap::Faces;
+}
+
+// `same_kind`: the volume that the pair has was made on the same terms, for another light. `volume`
+// is null where that is empty.
 void detect(PairState& pair, const CasterState& caster, const LightState& light,
-            const FrameTerms& terms, const ChosenStrategy& chosen, bool same_kind, Scratch& scratch,
-            PairWork& work, FrameStats& stats) {
+            const FrameTerms& terms, const ChosenStrategy& chosen, bool same_kind,
+            const Volume* volume, Scratch& scratch, PairWork& work, FrameStats& stats) {
     const ShadowMesh& mesh = *caster.mesh;
     const LightLocal current = current_light(pair, light);
     const auto start = Clock::now();
@@ -109,26 +122,29 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
 
     // A detector of the pair's own, which found what it had found for the volume that there is.
     const bool by_its_own = detector != nullptr && chosen.strategy->keeps_state;
-    VolumeOptions options{light.light.position_world.w == 0.0, terms.far_vertices, terms.caps};
+    VolumeOptions options{light.light.position_world.w == 0.0, work.far_vertices, terms.caps};
     double margin = found.margin;
-    if (options.caps.far_cap == FarCap::Fan) {
-        if (detector == nullptr || !fan_is_exact(mesh, current, terms.far_vertices)) {
+    const bool on_plane = work.far_vertices == FarVertices::OnPlane;
+    if (!on_plane && options.caps.far_cap == FarCap::Fan) {
+        if (detector == nullptr || !fan_is_exact(mesh, current, work.far_vertices)) {
             options.caps.far_cap = FarCap::Faces;
         } else {
             margin = std::min(margin, distance_to_bounds(mesh, current));
         }
     }
     const bool same = same_kind && by_its_own && pair.extra->detector_is_current &&
-                      !found.changed && options.caps.far_cap == terms.caps.far_cap;
+                      !found.changed && volume != nullptr &&
+                      (on_plane || volume->made_with.caps.far_cap == options.caps.far_cap);
     if (pair.extra != nullptr) pair.extra->detector_is_current = by_its_own;
     if (!same) {
-        auto volume = std::make_shared<Volume>();
+        auto made = std::make_shared<Volume>();
         runs_of(found.casting, scratch.runs);
-        build_volume(mesh, scratch.runs, found.silhouette, options, *volume, found.solid_averted);
-        work.made = std::move(volume);
+        if (on_plane) options.caps.far_cap = flat_cap(scratch.runs, found.silhouette.size());
+        build_volume(mesh, scratch.runs, found.silhouette, options, *made, found.solid_averted);
+        work.made = std::move(made);
         work.quads = nullptr;
     }
-    remember(pair, caster, current, terms, margin);
+    remember(pair, caster, current, work.far_vertices, margin);
 
     stats.detect_ms += milliseconds(start, detected);
     stats.build_ms += milliseconds(detected, Clock::now());
@@ -145,8 +161,7 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
 
 // False: the pair is not one of those that edge quads can draw; nothing happened.
 bool leave_to_gpu(PairState& pair, const CasterState& caster, const LightState& light,
-                  const FrameTerms& terms, QuadFacing facing, Scratch& scratch, PairWork& work,
-                  FrameStats& stats) {
+                  QuadFacing facing, Scratch& scratch, PairWork& work, FrameStats& stats) {
     if (caster.pose.singular) return false;
     const LightLocal current = current_light(pair, light);
     const auto start = Clock::now();
@@ -166,7 +181,7 @@ bool leave_to_gpu(PairState& pair, const CasterState& caster, const LightState& 
     if (pair.extra != nullptr) pair.extra->detector_is_current = false;
     work.made = volume_of_quads();
     work.quads = std::make_unique<QuadCasting>(std::move(found->casting));
-    remember(pair, caster, current, terms, found->margin);
+    remember(pair, caster, current, work.far_vertices, found->margin);
     return true;
 }
 
@@ -237,10 +252,20 @@ ChosenStrategy choose_strategy(const SilhouetteStrategy* wanted, const ShadowMes
 void update_pair(PairState& pair, const CasterState& caster, const LightState& light,
                  const FrameTerms& terms, const Volume* volume, const QuadCasting* quads,
                  Scratch& scratch, PairWork& work, FrameStats& stats) {
+    std::optional<ShadowHull> hull;
+    work.far_vertices = terms.far_vertices;
+    if (!caster.pose.singular) {
+        hull.emplace(bounds_of(caster), light.light);
+        work.reach = terms.fill.reach(*hull);
+        if (work.reach.clamped) work.far_vertices = FarVertices::OnPlane;
+    }
     const bool is_new = !pair.is(PairFlag::Known);
     const glm::dvec4& light_world = light.light.position_world;
     const bool directional = light_world.w == 0.0;
-    const bool finite_far = terms.far_vertices == FarVertices::Finite;
+    const bool finite_far = work.far_vertices != FarVertices::AtInfinity;
+    const bool other_far_vertices = pair.is(PairFlag::FiniteFar) != finite_far ||
+                                    (finite_far && volume != nullptr && quads == nullptr &&
+                                     volume->made_with.far_vertices != work.far_vertices);
     const bool averted = caster.near_caps == NearCaps::Averted;
     const bool comparable = !is_new && !caster.pose.singular && !pair.is(PairFlag::Flattened) &&
                             pair.is(PairFlag::Directional) == directional;
@@ -249,7 +274,7 @@ void update_pair(PairState& pair, const CasterState& caster, const LightState& l
 
     if (!is_new && caster.mesh_before != caster.mesh->id()) {
         reason = Reason::MeshChanged;
-    } else if (!is_new && pair.is(PairFlag::FiniteFar) != finite_far) {
+    } else if (!is_new && other_far_vertices) {
         reason = Reason::ProjectionChanged;
     } else if (!is_new && pair.is(PairFlag::AvertedCaps) != averted) {
         reason = Reason::NearCapsChanged;
@@ -287,15 +312,21 @@ void update_pair(PairState& pair, const CasterState& caster, const LightState& l
     }
     if (is_new) reason = Reason::New;
     if (light_is_new || asked_anew) {
+        const Hidden hidden = hull ? hidden_by(terms.fill, *hull, work.reach) : Hidden::No;
+        if (hidden != Hidden::No) {
+            pair = {};
+            pair.reason = hidden == Hidden::OutOfView ? Reason::OutOfView : Reason::ReachesNothing;
+            return;
+        }
         const PairHistory history{
             .is_new = is_new,
             .frames_at_rest = static_cast<std::uint16_t>(terms.frame - pair.changed - 1)};
         const ChosenStrategy chosen = choose_strategy(terms.strategy, *caster.mesh, history);
         const QuadFacing facing = chosen.strategy->quads;
         if (facing == QuadFacing::None ||
-            !leave_to_gpu(pair, caster, light, terms, facing, scratch, work, stats)) {
-            detect(pair, caster, light, terms, chosen, comparable && !asked_anew, scratch, work,
-                   stats);
+            !leave_to_gpu(pair, caster, light, facing, scratch, work, stats)) {
+            detect(pair, caster, light, terms, chosen, comparable && !asked_anew, volume, scratch,
+                   work, stats);
         }
     } else {
         ++stats.pairs_reused;
@@ -316,7 +347,8 @@ void take_back_from_gpu(PairState& pair, const CasterState& caster, const LightS
                         const FrameTerms& terms, Scratch& scratch, PairWork& work,
                         FrameStats& stats) {
     FrameStats own;
-    detect(pair, caster, light, terms, {terms.strategy, Choice::ByName}, false, scratch, work, own);
+    detect(pair, caster, light, terms, {terms.strategy, Choice::ByName}, false, nullptr, scratch,
+           work, own);
     bound_quickly(pair, caster, light, *work.made, nullptr, work);
     pair.set(PairFlag::Bounded, false);
     stats.detection.faces_tested += own.detection.faces_tested;

@@ -53,6 +53,8 @@ std::string_view to_string(Reason reason) {
         case Reason::ProjectionChanged: return "projection changed";
         case Reason::NearCapsChanged: return "near caps changed";
         case Reason::OutOfRange: return "out of range";
+        case Reason::OutOfView: return "out of view";
+        case Reason::ReachesNothing: return "reaches nothing";
     }
     return "";
 }
@@ -101,6 +103,21 @@ void ShadowSystem::State::submit(const Light& light) {
     }
 }
 
+void ShadowSystem::State::submit(const Receiver& receiver) {
+    GNOMON_EXPECTS(options.receivers == Receivers::Submitted);
+    const std::size_t before = receivers.size();
+    ReceiverState& known = receivers[receivers.submit(receiver.key)];
+    if (before == receivers.size() && same_bits(known.bounds, receiver.bounds)) return;
+    known.bounds = receiver.bounds;
+    known.box = internal::aabb_of(receiver.bounds);
+    receivers_changed = true;
+}
+
+void ShadowSystem::State::drop_receiver(std::uint32_t slot) {
+    receivers.remove(slot);
+    receivers_changed = true;
+}
+
 void ShadowSystem::State::drop_caster(std::uint32_t slot) {
     // Where it was at the last finish().
     OrientedBounds bounds = internal::bounds_of(casters[slot]);
@@ -117,7 +134,9 @@ void ShadowSystem::State::drop_caster(std::uint32_t slot) {
         LightState& light = lights[l];
         if (slot >= light.pairs.size()) continue;
         PairState& pair = light.pairs[slot];
-        if (pair.reason == Reason::OutOfRange) --light.culled;
+        if (internal::is_culled(pair.reason)) {
+            --light.culled[static_cast<std::size_t>(pair.reason)];
+        }
         pair = {};
         light.layers[slot] = 0;
     }
@@ -133,6 +152,9 @@ void ShadowSystem::State::drop_light(std::uint32_t slot) {
 void ShadowSystem::State::drop_unsubmitted() {
     for (std::uint32_t l = 0; !lights.all_submitted() && l < lights.end(); ++l) {
         if (lights[l].alive && !lights.is_submitted(l)) drop_light(l);
+    }
+    for (std::uint32_t r = 0; !receivers.all_submitted() && r < receivers.end(); ++r) {
+        if (receivers[r].alive && !receivers.is_submitted(r)) drop_receiver(r);
     }
     for (std::uint32_t c = 0; !casters.all_submitted() && c < casters.end(); ++c) {
         if (casters[c].alive && !casters.is_submitted(c)) drop_caster(c);
@@ -168,11 +190,13 @@ ShadowSystem::Frame ShadowSystem::begin_frame(Submission submission) {
     state_->submission = submission;
     state_->casters.begin_frame();
     state_->lights.begin_frame();
+    state_->receivers.begin_frame();
     return Frame(*this);
 }
 
 void ShadowSystem::Frame::caster(const Caster& caster) { system_->state_->submit(caster); }
 void ShadowSystem::Frame::light(const Light& light) { system_->state_->submit(light); }
+void ShadowSystem::Frame::receiver(const Receiver& receiver) { system_->state_->submit(receiver); }
 
 void ShadowSystem::Frame::remove_caster(std::uint64_t key) {
     State& state = *system_->state_;
@@ -184,6 +208,16 @@ void ShadowSystem::Frame::remove_light(std::uint64_t key) {
     State& state = *system_->state_;
     const std::uint32_t slot = state.lights.find(key);
     if (slot != internal::no_slot) state.drop_light(slot);
+}
+
+bool ShadowSystem::Frame::takes_receivers() const {
+    return system_->state_->options.receivers == Receivers::Submitted;
+}
+
+void ShadowSystem::Frame::remove_receiver(std::uint64_t key) {
+    State& state = *system_->state_;
+    const std::uint32_t slot = state.receivers.find(key);
+    if (slot != internal::no_slot) state.drop_receiver(slot);
 }
 
 const DrawList& ShadowSystem::Frame::finish(const View& view) && {
@@ -198,6 +232,7 @@ SystemMemory ShadowSystem::memory() const {
                      s.changed_casters.capacity() * sizeof(std::uint32_t) +
                      s.bounds_before.capacity() * sizeof(s.bounds_before[0]);
     memory.lights = s.lights.memory_bytes() + s.listed.capacity() * 4;
+    memory.receivers = s.receivers.memory_bytes() + s.receiver_tree.memory_bytes();
     const auto size_of = [](const Volume& volume) {
         return sizeof(Volume) + volume.indices.capacity() * sizeof(std::uint32_t) +
                volume.ranges.capacity() * sizeof(FaceRange);
@@ -234,7 +269,7 @@ SystemMemory ShadowSystem::memory() const {
                      s.drawn.capacity() * sizeof(internal::DrawnPair) +
                      s.fills.capacity() * sizeof(State::DrawToFill) +
                      s.chunks.capacity() * sizeof(std::size_t) +
-                     s.detectors.capacity() * sizeof(s.detectors[0]);
+                     (s.detectors.capacity() + s.deferred.capacity()) * sizeof(s.detectors[0]);
     for (const auto& scratch : s.scratches) {
         memory.scratch += sizeof *scratch + scratch->facing.weights.capacity() +
                           scratch->runs.capacity() * sizeof(FaceRun);

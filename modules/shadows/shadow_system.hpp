@@ -31,6 +31,8 @@
 #include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/jobs.hpp>
 #include <gnomon/shadows/light.hpp>
+#include <gnomon/shadows/receiver.hpp>
+#include <gnomon/shadows/screen_bounds.hpp>
 #include <gnomon/shadows/shadow_mesh.hpp>
 #include <gnomon/shadows/technique.hpp>
 #include <gnomon/shadows/view.hpp>
@@ -63,8 +65,10 @@ enum class Reason : std::uint8_t {
     ProjectionChanged,  ///< other far vertices are needed; detected anew as well
     NearCapsChanged,    ///< Caster::near_caps did; detected anew as well
     OutOfRange,         ///< the caster is beyond the light's range: no volume
+    OutOfView,          ///< nothing of the shadow can be seen: no volume until it can
+    ReachesNothing,     ///< the shadow reaches no receiver: no volume until it does
 };
-inline constexpr std::size_t reason_count = 10;
+inline constexpr std::size_t reason_count = 12;
 [[nodiscard]] std::string_view to_string(Reason reason);
 
 /// One volume to draw.
@@ -80,16 +84,20 @@ struct VolumeDraw {
     /// Changes whenever the indices or the bits of `quads` do; unique in the process.
     std::uint64_t revision = 0;
     glm::dmat4 world_from_local{1.0};
-    /// Takes the far vertices (p * scale + offset) to the world: the caster's own pose, but for
-    /// singular poses.
+    /// Takes the far vertices (p * scale + offset) to the world, homogeneous: the caster's own
+    /// pose, but for singular poses, and where they lie on a plane (FillOptions::clamp).
     glm::dmat4 world_from_far{1.0};
     Extrusion extrusion;
     Technique technique = Technique::DepthFail;
-    bool near_caps = true;  ///< depth-pass: whether caps must be drawn as well
+    bool near_caps = true;  ///< depth-pass: whether near caps must be drawn as well
+    bool far_caps = true;   ///< whether far caps must be, with this technique
     bool mirrored = false;  ///< the pose turns triangles over: front and back exchange
     Reason reason = Reason::New;
     /// Volumes of one light with the same number may be counted together in eight bits.
     std::uint32_t batch = 0;
+    /// Nothing outside of it changes; where it is empty the volume need not be drawn. All of the
+    /// picture without FillOptions::scissor.
+    ScreenBounds bounds;
 };
 
 /// The volumes of one light: draws[first .. first + count).
@@ -101,6 +109,7 @@ struct LightDraws {
     /// in batches of at most 127 layers each, volumes that exceed that alone in parts, ascending;
     /// a point is in shadow where any batch counts.
     std::uint32_t batches = 1;
+    ScreenBounds bounds = {};  ///< of all its volumes together
 };
 
 struct FrameStats {
@@ -108,7 +117,9 @@ struct FrameStats {
     std::uint64_t casters = 0;
     std::uint64_t lights = 0;
     std::uint64_t pairs = 0;
-    std::uint64_t pairs_culled = 0;
+    std::uint64_t pairs_culled = 0;   ///< without a volume: OutOfRange, OutOfView, ReachesNothing
+    std::uint64_t pairs_hidden = 0;   ///< with a volume that changes nothing in this view
+    std::uint64_t pairs_clamped = 0;  ///< of all pairs drawn: far vertices on a plane
     std::uint64_t pairs_redetected = 0;
     std::uint64_t pairs_reused = 0;
     std::uint64_t zpass_pairs = 0;
@@ -127,7 +138,8 @@ struct FrameStats {
 
 /// What to draw this frame: sorted by light key, then caster key; a caster whose volume was split
 /// has a draw for each part. Same input, same list: whatever came before, and however many threads
-/// worked on it. A copy shares the meshes and volumes.
+/// worked on it; but for volumes with empty bounds, which are kept for when they are seen again. A
+/// copy shares the meshes and volumes.
 struct DrawList {
     /// Changes whenever anything in lights or draws does but VolumeDraw::reason; unique in the
     /// process. 0 for a list that no system made: whoever changes a copy should say so.
@@ -167,6 +179,8 @@ struct SystemOptions {
     Jobs jobs = {};
     /// A fan is used for those pairs for which it is exact; the others have faces.
     CapOptions caps = {};
+    Receivers receivers = Receivers::Anywhere;
+    FillOptions fill = {};
 };
 
 /// What a ShadowSystem holds, in bytes: capacities, without what the allocator adds.
@@ -178,7 +192,8 @@ struct SystemMemory {
     /// What pairs hold for a while: detectors that keep state, until a pair has been at rest for 64
     /// to 128 frames; whole volumes and parts of lights that are split; distances for finite views.
     std::uint64_t extras = 0;
-    std::uint64_t draws = 0;    ///< of the draw list
+    std::uint64_t receivers = 0;  ///< with their tree
+    std::uint64_t draws = 0;      ///< of the draw list
     std::uint64_t volumes = 0;  ///< what it shares with copies of the list: volumes, their indices
     std::uint64_t scratch = 0;  ///< what is reused from frame to frame
 };
@@ -202,6 +217,10 @@ public:
         void light(const Light& light);
         void remove_caster(std::uint64_t key);
         void remove_light(std::uint64_t key);
+        /// The system must have been made with Receivers::Submitted.
+        void receiver(const Receiver& receiver);
+        [[nodiscard]] bool takes_receivers() const;
+        void remove_receiver(std::uint64_t key);
         /// Detects and builds what changed. A matrix or light that is not finite leaves its pairs
         /// out and is counted as culled. The list is the system's and stands until its next
         /// finish(); copy it to keep it. Cost: nothing where no submission differed from the last

@@ -367,6 +367,7 @@ void build_volume(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
 
 bool fan_is_exact(const ShadowMesh& mesh, LightLocal light, FarVertices far_vertices) {
     // Nearer to the light than any face, a fan of finite vertices could be seen.
+    if (far_vertices == FarVertices::OnPlane) return true;
     return !light.is_directional() && far_vertices == FarVertices::AtInfinity &&
            seen_from_outside(mesh, {.light = glm::dvec4(light.position)});
 }

@@ -40,15 +40,16 @@ struct FaceRange {
 
 /// Where far vertices go. At infinity they are directions (w = 0), which an infinite perspective
 /// draws exactly at depth 0; a finite far plane or an orthographic camera needs them at finite
-/// places.
-enum class FarVertices : std::uint8_t { AtInfinity, Finite };
+/// places. On a plane (FillOptions::clamp) they are finite, and a far cap is flat.
+enum class FarVertices : std::uint8_t { AtInfinity, Finite, OnPlane };
 
 /// What closes a volume at its far vertices.
 enum class FarCap : std::uint8_t {
     Faces,  ///< the casting faces: right for any light
     /// A fan over the silhouette, one triangle an edge. It equals the faces where all directions
     /// from the light to the caster lie in a half-space, and is wrong by whole layers where the
-    /// light is within the caster's bounds: fan_is_exact().
+    /// light is within the caster's bounds: fan_is_exact(). On a plane it always equals them: there
+    /// is nothing in a plane that has no boundary.
     Fan,
 };
 
@@ -144,8 +145,8 @@ void build_volume(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
                   FarVertices far_vertices, Volume& out,
                   std::span<const std::uint8_t> solid_averted = {});
 
-/// Whether FarCap::Fan closes the volume as FarCap::Faces does: for a point light outside the
-/// mesh's bounds, far vertices at infinity.
+/// Whether FarCap::Fan closes the volume as FarCap::Faces does: for far vertices on a plane, and
+/// for a point light outside the mesh's bounds with far vertices at infinity.
 [[nodiscard]] bool fan_is_exact(const ShadowMesh& mesh, LightLocal light, FarVertices far_vertices);
 
 /// Calls visit(std::uint32_t) for each face of `ranges` that casts: without the `undone` ones,

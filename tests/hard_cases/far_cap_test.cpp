@@ -60,6 +60,7 @@ protected:
         Wrong wrong;
         const auto wrong_with = [&](PictureOptions options) {
             options.technique = shadows::Technique::DepthFail;
+            options.receivers = shadows::Receivers::Anywhere;
             const Picture picture = must(take_picture(device(), setting, options));
             wrong.fans = 0;
             for (const shadows::VolumeDraw& draw : picture.list.draws) {

@@ -57,7 +57,8 @@ protected:
     scene::Entity caster_;
     Setting setting_;
     scene::ShadowAdapter adapter_;
-    shadows::ShadowSystem system_ = must(shadows::ShadowSystem::create());
+    shadows::ShadowSystem system_ = must(
+        shadows::ShadowSystem::create({.receivers = shadows::Receivers::Submitted}));
 };
 
 TEST_P(PosesOverTime, a_drift_arrives_where_a_rebuild_does) {

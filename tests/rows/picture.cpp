@@ -58,15 +58,16 @@ Result<Picture> take_picture(gpu::Device& device, const Setting& setting,
                                                  .silhouette = options.silhouette,
                                                  .max_layers = options.max_layers,
                                                  .layer_bound = options.layer_bound,
-                                                 .caps = options.caps});
+                                                 .caps = options.caps,
+                                                 .receivers = options.receivers,
+                                                 .fill = options.fill});
     if (!system) return forward_error(system);
     scene::ShadowAdapter adapter;
     for (int left = options.approach_frames; left > 0; --left) {
         auto before = system->begin_frame();
-        const auto casters =
-            adapter.casters(setting.scene, options.cull_back_faces, options.near_caps);
-        if (!casters) return forward_error(casters);
-        for (const shadows::Caster& caster : *casters) before.caster(caster);
+        const Status told =
+            adapter.submit(setting.scene, before, options.cull_back_faces, options.near_caps);
+        if (!told) return forward_error(told);
         for (shadows::Light light : lights_of(setting.scene)) {
             light.position_world += 0.004 * left * glm::dvec4(1.0, 0.5, -0.7, 0.0);
             before.light(light);

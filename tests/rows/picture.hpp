@@ -33,9 +33,11 @@ struct PictureOptions {
     std::uint32_t max_layers = 255;
     shadows::LayerBound layer_bound = shadows::LayerBound::Proved;
     shadows::CapOptions caps = {};
+    shadows::Receivers receivers = shadows::Receivers::Submitted;
+    shadows::FillOptions fill = {};
     std::string silhouette = "auto";
-    /// Frames before the one that is drawn, in which the lights come to their places in small steps:
-    /// for strategies that remember.
+    /// Frames before the one that is drawn, in which the lights come to their places in small
+    /// steps: for strategies that remember.
     int approach_frames = 0;
     bool cull_back_faces = false;
     gpu::Compare volume_depth_compare = gpu::Compare::Greater;

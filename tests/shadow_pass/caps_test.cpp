@@ -83,7 +83,9 @@ public:
     Scene(std::shared_ptr<const shadows::ShadowMesh> mesh, const CapOptions& caps,
           Technique technique = Technique::DepthFail, const ShadowPassDesc& desc = {})
         : mesh_(std::move(mesh)),
-          system_(*shadows::ShadowSystem::create({.force_technique = technique, .caps = caps})),
+          system_(*shadows::ShadowSystem::create({.force_technique = technique,
+                                                  .caps = caps,
+                                                  .fill = shadows::FillOptions::none()})),
           device_(gpu::create_null_backend()),
           pass_(*ShadowPass::create(device_, desc)) {}
 

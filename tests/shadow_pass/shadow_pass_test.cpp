@@ -42,8 +42,9 @@ struct World {
     shadows::NearCaps near_caps = shadows::NearCaps::Facing;
     bool in_depth_buffer = true;
 
-    explicit World(const shadows::SystemOptions& options = {})
-        : system(*shadows::ShadowSystem::create(options)) {}
+    explicit World(shadows::SystemOptions options = {})
+        : system((options.fill = shadows::FillOptions::none(),
+                  *shadows::ShadowSystem::create(options))) {}
 
     shadows::DrawList frame(const shadows::View& view) {
         auto frame = system.begin_frame();

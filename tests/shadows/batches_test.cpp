@@ -30,7 +30,8 @@ struct World {
     std::vector<glm::dmat4> poses;
     glm::dvec4 light{0.0, 1.0, 0.0, 0.0};
 
-    explicit World(const SystemOptions& options = {}) : system(*ShadowSystem::create(options)) {}
+    explicit World(SystemOptions options = {})
+        : system((options.fill = FillOptions::none(), *ShadowSystem::create(options))) {}
 
     DrawList frame() {
         auto frame = system.begin_frame();

@@ -45,7 +45,7 @@ protected:
     }
     // The same picture from a system that has seen nothing before.
     [[nodiscard]] DrawList from_nothing() const {
-        auto fresh = ShadowSystem::create();
+        auto fresh = ShadowSystem::create({.fill = FillOptions::none()});
         auto frame = fresh->begin_frame();
         for (const Caster& caster : casters_) frame.caster(caster);
         for (const Light& light : lights_) frame.light(light);
@@ -81,7 +81,7 @@ protected:
     std::shared_ptr<const ShadowMesh> box_ = test::build(test::box());
     std::vector<Caster> casters_{{.key = 1, .mesh = ball_}};
     std::vector<Light> lights_{{.key = 1, .position_world = point({3, 7, 2})}};
-    ShadowSystem system_ = std::move(ShadowSystem::create()).value();
+    ShadowSystem system_ = std::move(ShadowSystem::create({.fill = FillOptions::none()})).value();
 };
 
 TEST_F(ChangeDetection, NothingMovesNothingIsDone) {
@@ -476,7 +476,8 @@ TEST_F(ChangeDetection, AFanGivesWayToFacesBeforeTheLightIsWithinTheBounds) {
         test::remove_face(open, f);
     }
     casters_[0].mesh = test::build(open);
-    system_ = *ShadowSystem::create({.caps = {.far_cap = FarCap::Fan}});
+    system_ =
+        *ShadowSystem::create({.caps = {.far_cap = FarCap::Fan}, .fill = FillOptions::none()});
     std::size_t reused = 0;
     bool was_fan = true;
     std::size_t changes = 0;
@@ -499,7 +500,8 @@ TEST_F(ChangeDetection, AFanGivesWayToFacesBeforeTheLightIsWithinTheBounds) {
 }
 
 TEST_F(ChangeDetection, AFanIsForPointLightsAndFarVerticesAtInfinity) {
-    system_ = *ShadowSystem::create({.caps = {.far_cap = FarCap::Fan}});
+    system_ =
+        *ShadowSystem::create({.caps = {.far_cap = FarCap::Fan}, .fill = FillOptions::none()});
     const auto far_cap = [](const DrawList& list) {
         return list.draws[0].volume->made_with.caps.far_cap;
     };

@@ -52,7 +52,7 @@ struct Field {
 
 TEST(IdlePairs, TenThousandCastersAndFourLights) {
     const Field field(10'000, 4);
-    ShadowSystem system = *ShadowSystem::create();
+    ShadowSystem system = *ShadowSystem::create({.fill = FillOptions::none()});
     const DrawList& list = field.submit(system);
     EXPECT_EQ(list.draws.size(), 40'000U);
     EXPECT_EQ(list.stats.pairs_redetected, 40'000U);
@@ -66,7 +66,7 @@ TEST(IdlePairs, TenThousandCastersAndFourLights) {
 TEST(IdlePairs, AllocateNothing) {
     const Field field(500, 3);
     for (const bool threads : {false, true}) {
-        SystemOptions options;
+        SystemOptions options{.fill = FillOptions::none()};
         if (threads) options.jobs = thread_jobs(2);
         ShadowSystem system = *ShadowSystem::create(options);
         for (int warm_up = 0; warm_up < 3; ++warm_up) (void)field.submit(system);
@@ -91,7 +91,7 @@ TEST(IdlePairs, TakeLessThan64BytesBesideWhatIsDrawn) {
     const Field field(4'000, 4);
     constexpr double pairs = 16'000.0;
     const std::uint64_t before = test::allocated_bytes();
-    ShadowSystem system = *ShadowSystem::create();
+    ShadowSystem system = *ShadowSystem::create({.fill = FillOptions::none()});
     for (int i = 0; i < 3; ++i) (void)field.submit(system);
     const auto all = static_cast<double>(test::allocated_bytes() - before);
     const SystemMemory memory = system.memory();
@@ -126,7 +126,8 @@ TEST(IdlePairs, TakeLessThan64BytesBesideWhatIsDrawn) {
 TEST(IdlePairs, GiveEverythingBack) {
     const std::uint64_t before = test::allocated_bytes();
     {
-        ShadowSystem system = *ShadowSystem::create({.max_layers = 3, .jobs = thread_jobs(3)});
+        ShadowSystem system = *ShadowSystem::create(
+            {.max_layers = 3, .jobs = thread_jobs(3), .fill = FillOptions::none()});
         Field field(300, 3);
         for (int i = 0; i < 20; ++i) {
             field.lights[0].position_world.x += 1.0;
@@ -141,7 +142,8 @@ TEST(IdlePairs, GiveTheirDetectorsBackAfterAWhile) {
     for (const SilhouetteStrategy& strategy : silhouette_strategies()) {
         SCOPED_TRACE(std::string(strategy.name));
         Field field(50, 2);
-        ShadowSystem system = *ShadowSystem::create({.silhouette = strategy.name});
+        ShadowSystem system =
+            *ShadowSystem::create({.silhouette = strategy.name, .fill = FillOptions::none()});
         for (int round = 0; round < 3; ++round) {
             field.lights[1].position_world.y -= 45.0;
             const DrawList& list = field.submit(system);
@@ -158,7 +160,7 @@ TEST(IdlePairs, GiveTheirDetectorsBackAfterAWhile) {
 
 TEST(IdlePairs, SlotsAreUsedAgain) {
     Field field(200, 2);
-    ShadowSystem system = *ShadowSystem::create();
+    ShadowSystem system = *ShadowSystem::create({.fill = FillOptions::none()});
     (void)field.submit(system);
     const std::uint64_t pairs = system.memory().pairs;
     for (int i = 0; i < 50; ++i) {

@@ -245,7 +245,9 @@ class ManyPairs : public testing::TestWithParam<std::tuple<std::uint32_t, std::s
 protected:
     [[nodiscard]] static std::uint32_t max_layers() { return std::get<0>(GetParam()); }
     [[nodiscard]] static SystemOptions options() {
-        SystemOptions options{.silhouette = std::get<1>(GetParam()), .max_layers = max_layers()};
+        SystemOptions options{.silhouette = std::get<1>(GetParam()),
+                              .max_layers = max_layers(),
+                              .fill = FillOptions::none()};
         if (for_the_gpu()) options.layer_bound = LayerBound::Promised;
         return options;
     }
@@ -277,7 +279,8 @@ TEST_P(ManyPairs, GiveTheListOfASystemThatSawNothingBefore) {
         for (int step = 0; step < 60; ++step) {
             SCOPED_TRACE(testing::Message() << "run " << run << ", step " << step);
             ShadowSystem fresh = *ShadowSystem::create(
-                for_the_gpu() ? options : SystemOptions{.max_layers = max_layers()});
+                for_the_gpu() ? options
+                              : SystemOptions{.max_layers = max_layers(), .fill = options.fill});
             const DrawList& expected = world.full(fresh);
             const DrawList& list = world.full(full);
             expect_same(list, expected);

@@ -83,6 +83,13 @@ TEST(Pair, KeepsTheVolumeWhereItsOwnDetectorFindsTheSame) {
     EXPECT_TRUE(one.update({0.5, 40, 50, 0}));
     EXPECT_EQ(one.pair.reason, Reason::ProjectionChanged);
     EXPECT_GT(one.volume->far_cap.count, 0U);
+    // A plane has another cap than vertices that are finite one by one, whatever the light does.
+    ReceiverTree ground;
+    ground.build(std::array{Aabb{{-9, -9, -9}, {9, 9, -8}}});
+    one.terms.fill = {{}, &ground, nullptr};
+    EXPECT_TRUE(one.update({0.5, 40, 50, 0}));
+    EXPECT_EQ(one.pair.reason, Reason::ProjectionChanged);
+    EXPECT_EQ(one.volume->made_with.far_vertices, FarVertices::OnPlane);
 }
 
 TEST(Pair, ADetectorIsTheirsAloneAndGoesWithThem) {

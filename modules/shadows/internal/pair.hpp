@@ -3,6 +3,7 @@
 // What the ShadowSystem remembers of one pair of caster and light, and how it brings it up to date.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -22,6 +23,7 @@
 
 #include "layer_grid.hpp"
 #include "local_light.hpp"
+#include "reach.hpp"
 #include "slots.hpp"
 
 namespace gnomon::shadows::internal {
@@ -76,7 +78,7 @@ enum class PairFlag : std::uint8_t {
     Flattened = 2,     ///< for a singular pose
     Directional = 4,   ///< for a light infinitely far away
     AvertedCaps = 8,   ///< Caster::near_caps
-    FiniteFar = 16,    ///< FarVertices
+    FiniteFar = 16,    ///< far vertices of its volume are not at infinity
     FromOutside = 32,  ///< seen_from_outside()
     Bounded = 64,      ///< its layers are layer_bound(), not the quick one
     Watched = 128,     ///< its detector is in the list of those that may rest
@@ -139,7 +141,7 @@ struct LightState : SlotHead {
     // By caster slot; layers are 0 where there is no volume.
     std::vector<PairState> pairs;
     std::vector<std::uint32_t> layers;  ///< that a pair's volume can lay over a point
-    std::uint64_t culled = 0;           ///< pairs that are out of range
+    std::array<std::uint64_t, reason_count> culled{};  ///< pairs without a volume, by Reason
     LayerMemory memory;
     std::unique_ptr<LayerGrid> grid;  ///< of all pairs' layers, while there are many; or null
     // In the draw list.
@@ -163,12 +165,19 @@ struct Scratch {
     std::vector<FaceRun> runs;
 };
 
+/// A pair that has no volume, for now.
+[[nodiscard]] constexpr bool is_culled(Reason reason) {
+    return reason == Reason::OutOfRange || reason == Reason::OutOfView ||
+           reason == Reason::ReachesNothing;
+}
+
 /// What is the same for all pairs of a frame.
 struct FrameTerms {
-    FarVertices far_vertices = FarVertices::AtInfinity;
-    const SilhouetteStrategy* strategy = nullptr;  ///< null: "auto"
+    FarVertices far_vertices = FarVertices::AtInfinity;  ///< of pairs that are not clamped
+    const SilhouetteStrategy* strategy = nullptr;        ///< null: "auto"
     std::uint64_t frame = 0;
     CapOptions caps = {};
+    FillTerms fill = {};
 };
 
 /// A pair that may have changed, and what came of it.
@@ -176,10 +185,12 @@ struct PairWork {
     std::uint32_t light = 0;
     std::uint32_t caster = 0;
     std::uint32_t layers = 0;
-    bool was_culled = false;
+    FarVertices far_vertices = FarVertices::AtInfinity;
+    Reason was = Reason::Unchanged;  ///< the pair's reason before
     bool had_volume = false;
-    std::shared_ptr<const Volume> made;  ///< null: its volume stays what it was
-    std::unique_ptr<QuadCasting> quads;  ///< VolumeDraw::quads, with `made`
+    Reach reach = {};
+    std::shared_ptr<const Volume> made = nullptr;  ///< null: its volume stays what it was
+    std::unique_ptr<QuadCasting> quads = nullptr;  ///< VolumeDraw::quads, with `made`
 };
 
 /// Unique in the process, never 0.
@@ -201,11 +212,11 @@ struct ChosenStrategy {
 [[nodiscard]] ChosenStrategy choose_strategy(const SilhouetteStrategy* wanted,
                                              const ShadowMesh& mesh, const PairHistory& history);
 
-/// Brings the pair up to date: its reason, and in `work` a new volume where it needs one and its
-/// layers where they may be others. `volume` is the one it has, null for none or an empty one, and
-/// `quads` what the GPU makes it from, if it does.
-/// Touches nothing but its arguments, so that pairs may be updated by several threads at a time.
-/// Adds to the stats.
+/// Brings the pair up to date: its reason, and in `work` a new volume where it needs one, its
+/// layers where they may be others, and its reach. A volume that cannot be seen is not made: then
+/// the pair is as new, but for its reason. `volume` is the one it has, null for none or an empty
+/// one, and `quads` what the GPU makes it from, if it does. Touches nothing but its arguments, so
+/// that pairs may be updated by several threads at a time. Adds to the stats.
 void update_pair(PairState& pair, const CasterState& caster, const LightState& light,
                  const FrameTerms& terms, const Volume* volume, const QuadCasting* quads,
                  Scratch& scratch, PairWork& work, FrameStats& stats);

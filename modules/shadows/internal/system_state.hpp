@@ -18,6 +18,8 @@
 #include "batches.hpp"
 #include "near_clip.hpp"
 #include "pair.hpp"
+#include "reach.hpp"
+#include "receiver_tree.hpp"
 
 namespace gnomon::shadows {
 
@@ -29,7 +31,16 @@ struct DrawOrigin {
     bool first = true;                           ///< of its pair's draws
     Technique technique = Technique::DepthFail;  ///< the draw's
     bool quads = false;                          ///< the draw has some
+    bool hidden = false;                         ///< its bounds are empty
+    bool reach_known = false;
     Fill fill = Fill::Not;
+    internal::Reach reach = {};
+};
+
+/// A receiver that is submitted.
+struct ReceiverState : internal::SlotHead {
+    OrientedBounds bounds;
+    internal::Aabb box;
 };
 
 struct ShadowSystem::State {
@@ -42,7 +53,9 @@ struct ShadowSystem::State {
     internal::Slots<internal::LightState> lights;
     std::vector<std::uint32_t> changed_casters;  // slots; may be free again, or twice
     std::vector<std::pair<std::uint32_t, OrientedBounds>> bounds_before;  // of those not new
+    internal::Slots<ReceiverState> receivers;
     bool lights_changed = false;
+    bool receivers_changed = false;
     bool came_or_went = false;  // casters or lights
     std::uint64_t next_revision = 1;
 
@@ -51,9 +64,13 @@ struct ShadowSystem::State {
     std::vector<DrawOrigin> origins;    // of list.draws
     std::vector<std::uint32_t> listed;  // slots, of list.lights
     std::optional<View> view;
+    std::optional<internal::Screen> screen;  // of the view
     FarVertices far_vertices = FarVertices::AtInfinity;
     std::vector<internal::PairWork> work;  // what may have a reason other than Unchanged
-    bool settled = false;                  // list says of itself that nothing changed
+    internal::ReceiverTree receiver_tree;
+    // Pairs, by light and caster, that have no volume because nothing could be seen of it.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> deferred;
+    bool settled = false;  // list says of itself that nothing changed
     std::uint64_t frame = 0;
 
     // Detectors that pairs hold, by light and caster.
@@ -73,8 +90,10 @@ struct ShadowSystem::State {
     // shadow_system.cpp
     void submit(const Caster& caster);
     void submit(const Light& light);
+    void submit(const Receiver& receiver);
     void drop_caster(std::uint32_t slot);
     void drop_light(std::uint32_t slot);
+    void drop_receiver(std::uint32_t slot);
     void drop_unsubmitted();
 
     // frame.cpp
@@ -84,8 +103,14 @@ struct ShadowSystem::State {
     void collect_work(bool all);
     void update_pairs();
     [[nodiscard]] internal::FrameTerms terms() const {
-        return {far_vertices, strategy, frame, options.caps};
+        return {far_vertices, strategy, frame, options.caps, fill_terms()};
     }
+    [[nodiscard]] internal::FillTerms fill_terms() const {
+        const bool known = options.receivers == Receivers::Submitted;
+        return {options.fill, known ? &receiver_tree : nullptr, screen ? &*screen : nullptr};
+    }
+    void plant_receivers();
+    void take_up_deferred();
     void update_one(internal::PairWork& item, internal::Scratch& scratch, FrameStats& stats);
     [[nodiscard]] bool place_results();
     void place_volume(internal::LightState& light, internal::PairState& pair,
@@ -93,6 +118,8 @@ struct ShadowSystem::State {
     void take_from_grids(std::uint32_t caster, const OrientedBounds& bounds);
     void put_into_grids();
     [[nodiscard]] bool piles_up(internal::LightState& light);
+    [[nodiscard]] FarVertices far_vertices_of(const internal::LightState& light,
+                                              std::uint32_t caster) const;
     [[nodiscard]] bool take_back_quads(internal::LightState& light);
     [[nodiscard]] bool split_lights();
     void tidy_up();

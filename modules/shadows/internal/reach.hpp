@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+//
+// Reach: how far the shadow of a pair has to go, wherever it is looked at from. And what of the
+// picture it can change, from one place.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <glm/glm.hpp>
+
+#include <gnomon/shadows/light.hpp>
+#include <gnomon/shadows/receiver.hpp>
+#include <gnomon/shadows/screen_bounds.hpp>
+#include <gnomon/shadows/technique.hpp>
+#include <gnomon/shadows/view.hpp>
+
+#include "receiver_tree.hpp"
+#include "shadow_hull.hpp"
+
+namespace gnomon::shadows::internal {
+
+struct Reach {
+    bool any = true;  ///< a receiver, or receivers are not known
+    /// Far vertices go onto a plane, else to infinity: whatever receivers there are.
+    bool clamped = false;
+    /// The plane: dot(normal, p) = distance + margin; the light and the caster lie below. Unit
+    /// length.
+    glm::dvec3 normal{0.0};
+    double distance = 0.0;
+    double margin = 0.0;  ///< what receivers and caster are away from it at least
+    /// What receives, cut off where the shadow ends; all of space where that is not known.
+    Aabb box = Aabb::nothing();
+};
+
+/// `receivers` is null where they may be anywhere. Exact on every receiver: whatever of the shadow
+/// lies beyond the plane reaches none. A plane is taken only where every point of the caster's
+/// bounds lies below it and well in front of the light along its normal, so that the projection
+/// keeps the order of points and their sides of the light.
+[[nodiscard]] Reach reach_of(const ShadowHull& hull, const ReceiverTree* receivers,
+                             const FillOptions& options);
+
+/// The plane as the view needs it: moved away by what single precision may do at the eye's
+/// distance.
+[[nodiscard]] double plane_distance(const Reach& reach, const glm::dvec3& eye);
+
+/// Takes points of a caster's space to the plane, from the light (a point, or a direction towards
+/// it) in that space: homogeneous, w > 0 for all that lies in front of the light. `plane` in the
+/// caster's space: dot(plane.xyz, p) + plane.w = 0. After J. Blinn, "Me and My (Fake) Shadow"
+/// (1988).
+[[nodiscard]] glm::dmat4 projection_onto(const glm::dvec4& plane, const glm::dvec4& light);
+
+/// A plane of the world, in the space of a pose: dot(normal, world) = distance.
+[[nodiscard]] glm::dvec4 plane_in(const glm::dmat4& world_from_local, const glm::dvec3& normal,
+                                  double distance);
+
+/// What of a picture is needed to tell where things are on it.
+class Screen {
+public:
+    explicit Screen(const View& view);
+
+    [[nodiscard]] const glm::dvec3& eye() const { return eye_; }
+    /// What a shadow can change: where it lies, and receivers do. `plane` as plane_distance() has
+    /// it. Cost: some hundred flops, some thousand where the eye's plane cuts it.
+    [[nodiscard]] ScreenBounds of(const ShadowHull& hull, const Reach& reach, double plane) const;
+    /// Of a finite box.
+    [[nodiscard]] ScreenBounds of(const Aabb& box) const;
+
+private:
+    [[nodiscard]] ScreenBounds of(std::span<const glm::dvec4> points) const;
+
+    glm::dmat4 clip_from_world_;  // relative to the eye
+    glm::dvec3 eye_{0.0};
+    double nearest_ = 0.0;  // w of what is on the near plane
+};
+
+/// By what volumes are left out or cut, the same for all pairs of a frame.
+struct FillTerms {
+    FillOptions options = FillOptions::none();
+    const ReceiverTree* receivers = nullptr;  ///< null: anywhere
+    const Screen* screen = nullptr;           ///< null: seen from everywhere
+
+    [[nodiscard]] Reach reach(const ShadowHull& hull) const {
+        return reach_of(hull, receivers, options);
+    }
+};
+
+enum class Hidden : std::uint8_t { No, OutOfView, ReachesNothing };
+/// Whether a volume may be left out.
+[[nodiscard]] Hidden hidden_by(const FillTerms& terms, const ShadowHull& hull, const Reach& reach);
+
+}  // namespace gnomon::shadows::internal

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// A tree of receivers' bounds: which of them a shadow can reach.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shadow_hull.hpp"
+
+namespace gnomon::shadows::internal {
+
+class ReceiverTree {
+public:
+    /// What the receivers that a hull may meet take up, together.
+    struct Reached {
+        Aabb box = Aabb::nothing();  ///< cut off where the hull's own bounds end
+        double along_axis = 0.0;  ///< the farthest along ShadowHull::axis(); where any is reached
+        [[nodiscard]] bool any() const { return !box.empty(); }
+    };
+
+    /// Cost: O(n log n).
+    void build(std::span<const Aabb> receivers);
+    [[nodiscard]] bool empty() const { return nodes_.empty(); }
+    /// Of all receivers.
+    [[nodiscard]] const Aabb& bounds() const { return nodes_.front().box; }
+    /// Adds those reached to `reached`. Cost: the nodes that say something new.
+    void reach(const ShadowHull& hull, Reached& reached) const;
+    [[nodiscard]] std::size_t memory_bytes() const;
+
+private:
+    struct Node {
+        Aabb box;
+        std::uint32_t next = 0;  // the node after all that is below this one
+        bool is_leaf = false;
+    };
+    std::uint32_t build(std::span<const Aabb> receivers, std::span<std::uint32_t> of_node);
+
+    std::vector<Node> nodes_;  // depth first
+    std::vector<std::uint32_t> order_;
+};
+
+}  // namespace gnomon::shadows::internal

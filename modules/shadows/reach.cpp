@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "internal/reach.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "internal/finite.hpp"
+
+namespace gnomon::shadows::internal {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// How far in front of the light a caster begins along a normal, as a part of its size: less, and
+// far vertices would lose their places to rounding.
+constexpr double least_front = 1e-3;
+// Of a direction's cosine with a plane's normal.
+constexpr double least_slope = 0.05;
+
+struct Extent {
+    double low = infinity;
+    double high = -infinity;
+};
+
+Extent along(const ShadowHull& hull, const glm::dvec3& normal) {
+    Extent e;
+    for (const glm::dvec3& corner : hull.corners()) {
+        const double x = glm::dot(corner, normal);
+        e.low = std::min(e.low, x);
+        e.high = std::max(e.high, x);
+    }
+    return e;
+}
+
+double size_of(const ShadowHull& hull) {
+    double size2 = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec3 across = hull.corners()[7 - i] - hull.corners()[i];
+        size2 = std::max(size2, glm::dot(across, across));
+    }
+    return std::sqrt(size2);
+}
+
+// Whether planes of this normal can end the shadow.
+bool is_valid(const ShadowHull& hull, const glm::dvec3& normal, const Extent& caster, double size) {
+    if (hull.light().w == 0.0) return glm::dot(hull.axis(), normal) >= least_slope;
+    return caster.low - glm::dot(glm::dvec3(hull.light()), normal) > least_front * size;
+}
+
+// What far vertices are away from the caster's corners, in all.
+double length_to(const ShadowHull& hull, const glm::dvec3& normal, double distance) {
+    const glm::dvec3 light(hull.light());
+    double sum = 0.0;
+    for (const glm::dvec3& corner : hull.corners()) {
+        const double below = distance - glm::dot(normal, corner);
+        if (hull.light().w == 0.0) {
+            sum += below / glm::dot(normal, hull.axis());
+        } else {
+            const glm::dvec3 ray = corner - light;
+            sum += glm::length(ray) * below / glm::dot(normal, ray);
+        }
+    }
+    return sum;
+}
+
+template <class Visit>
+void for_each_normal(const ShadowHull& hull, Visit&& visit) {
+    visit(hull.axis());
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 normal(0.0);
+        normal[axis] = hull.axis()[axis] < 0.0 ? -1.0 : 1.0;
+        visit(normal);
+    }
+}
+
+}  // namespace
+
+Reach reach_of(const ShadowHull& hull, const ReceiverTree* receivers, const FillOptions& options) {
+    Reach reach;
+    if (receivers == nullptr) {
+        reach.box = hull.bounds();
+        return reach;
+    }
+    ReceiverTree::Reached reached;
+    receivers->reach(hull, reached);
+    reach.box = reached.box;
+    reach.any = reached.any();
+    if (!options.clamp || hull.everything()) return reach;
+
+    const double size = size_of(hull);
+    double best = infinity;
+    for_each_normal(hull, [&](const glm::dvec3& normal) {
+        const Extent caster = along(hull, normal);
+        if (!is_valid(hull, normal, caster, size)) return;
+        double distance = caster.high;
+        if (reach.any) {
+            const bool is_axis = normal == hull.axis();
+            distance =
+                std::max(distance, is_axis ? reached.along_axis : support(reached.box, normal));
+        }
+        const double length = length_to(hull, normal, distance);
+        if (!(length < best)) return;
+        best = length;
+        reach.clamped = true;
+        reach.normal = normal;
+        reach.distance = distance;
+        reach.margin = std::max(1e-3 * (distance - caster.low), 1e-5 * size);
+    });
+    return reach;
+}
+
+double plane_distance(const Reach& reach, const glm::dvec3& eye) {
+    // Single-precision clip coordinates round by 6e-8 of what they are made of, a few times.
+    const double from_eye = std::abs(reach.distance - glm::dot(reach.normal, eye));
+    return reach.distance + reach.margin + 1e-5 * from_eye;
+}
+
+glm::dvec4 plane_in(const glm::dmat4& world_from_local, const glm::dvec3& normal, double distance) {
+    return {glm::transpose(glm::dmat3(world_from_local)) * normal,
+            glm::dot(normal, glm::dvec3(world_from_local[3])) - distance};
+}
+
+glm::dmat4 projection_onto(const glm::dvec4& plane, const glm::dvec4& light) {
+    // dot(plane, light) * p - dot(plane, p) * light, with the sign that makes w positive.
+    const double at_light = glm::dot(plane, light);
+    const double scale = -1.0 / at_light;
+    glm::dmat4 projection;
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) {
+            projection[c][r] = scale * (plane[c] * light[r] - (c == r ? at_light : 0.0));
+        }
+    }
+    return projection;
+}
+
+Screen::Screen(const View& view) : eye_(glm::inverse(view.view_from_world)[3]) {
+    glm::dmat4 rotation = view.view_from_world;
+    rotation[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
+    clip_from_world_ = view.clip_from_view * rotation;
+    nearest_ = infinity;
+    for (const glm::dvec3& corner : near_corners(view)) {
+        const glm::dvec4 clip = clip_from_world_ * glm::dvec4(corner - eye_, 1.0);
+        nearest_ = std::min(nearest_, clip.w);
+    }
+    nearest_ *= 0.999;
+}
+
+ScreenBounds Screen::of(std::span<const glm::dvec4> points) const {
+    std::array<glm::dvec3, 32> clip;  // x, y, w
+    glm::dvec2 low(infinity);
+    glm::dvec2 high(-infinity);
+    const auto include = [&](double x, double y, double w) {
+        const glm::dvec2 p(x / w, y / w);
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    };
+    bool any_before = false;
+    bool any_behind = false;
+    const auto is_before = [&](const glm::dvec3& c, double weight) {
+        return c.z >= nearest_ * weight && c.z > 0.0;
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec4 c = clip_from_world_ * points[i];
+        if (!is_finite(c)) return {};
+        clip[i] = {c.x, c.y, c.w};
+        if (is_before(clip[i], points[i].w)) {
+            any_before = true;
+            include(c.x, c.y, c.w);
+        } else {
+            any_behind = true;
+        }
+    }
+    if (any_behind) {
+        if (!any_before) return ScreenBounds::nothing();
+        // Where lines between the two sides cross the near plane: all of the hull's edges are among
+        // them.
+        for (std::size_t a = 0; a < points.size(); ++a) {
+            if (!is_before(clip[a], points[a].w)) continue;
+            const double before = clip[a].z - nearest_ * points[a].w;
+            for (std::size_t b = 0; b < points.size(); ++b) {
+                if (is_before(clip[b], points[b].w)) continue;
+                const double behind = nearest_ * points[b].w - clip[b].z;
+                const double sum = before + behind;
+                if (!(sum > 0.0)) continue;
+                const glm::dvec3 c = (clip[a] * behind + clip[b] * before) / sum;
+                if (!(c.z > 0.0)) return {};
+                include(c.x, c.y, c.z);
+            }
+        }
+    }
+    if (!is_finite(low) || !is_finite(high)) return {};
+    const auto outward = [](const glm::dvec2& p, double by) {
+        return glm::vec2(glm::clamp(p + by * (1e-6 + 1e-6 * glm::abs(p)), -2.0, 2.0));
+    };
+    const ScreenBounds bounds{outward(low, -1.0), outward(high, 1.0)};
+    return intersection(bounds, {});
+}
+
+ScreenBounds Screen::of(const Aabb& box) const {
+    if (box.empty()) return ScreenBounds::nothing();
+    if (!is_finite(box.low) || !is_finite(box.high)) return {};
+    std::array<glm::dvec4, 8> points;
+    for (unsigned i = 0; i < 8; ++i) {
+        points[i] = glm::dvec4(glm::dvec3((i & 1U) != 0 ? box.high.x : box.low.x,
+                                          (i & 2U) != 0 ? box.high.y : box.low.y,
+                                          (i & 4U) != 0 ? box.high.z : box.low.z) -
+                                   eye_,
+                               1.0);
+    }
+    return of(points);
+}
+
+ScreenBounds Screen::of(const ShadowHull& hull, const Reach& reach, double plane) const {
+    if (!reach.any) return ScreenBounds::nothing();
+    const ScreenBounds receivers = of(reach.box);
+    if (hull.everything() || receivers.empty()) return receivers;
+    std::array<glm::dvec4, 16> points;
+    const glm::dvec3 light(hull.light());
+    const bool directional = hull.light().w == 0.0;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec3& corner = hull.corners()[i];
+        points[i] = glm::dvec4(corner - eye_, 1.0);
+        const glm::dvec3 ray = directional ? hull.axis() : corner - light;
+        if (reach.clamped) {
+            const double t = (plane - glm::dot(reach.normal, corner)) / glm::dot(reach.normal, ray);
+            points[8 + i] = glm::dvec4(corner + t * ray - eye_, 1.0);
+        } else {
+            points[8 + i] = glm::dvec4(ray, 0.0);
+        }
+    }
+    return intersection(of(points), receivers);
+}
+
+Hidden hidden_by(const FillTerms& terms, const ShadowHull& hull, const Reach& reach) {
+    if (terms.options.cull_by_receivers && !reach.any) return Hidden::ReachesNothing;
+    if (!terms.options.cull_by_view || terms.screen == nullptr) return Hidden::No;
+    const double plane = plane_distance(reach, terms.screen->eye());
+    return terms.screen->of(hull, reach, plane).empty() ? Hidden::OutOfView : Hidden::No;
+}
+
+}  // namespace gnomon::shadows::internal

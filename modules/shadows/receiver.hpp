@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// Receivers: where surfaces are that shadows can be seen on. Who submits them all gets volumes that
+// end behind the last one that a shadow can reach, and none where it reaches none; the mask is the
+// same on every one of them. Most casters are receivers as well.
+#pragma once
+
+#include <cstdint>
+
+#include <gnomon/shadows/technique.hpp>
+
+namespace gnomon::shadows {
+
+struct Receiver {
+    std::uint64_t key = 0;  ///< the host's name for it; unique among receivers
+    /// Holds all of the surface, as it is drawn. Smaller is better: a terrain had better come in
+    /// tiles.
+    OrientedBounds bounds;
+};
+
+/// What a system knows of receivers.
+enum class Receivers : std::uint8_t {
+    Anywhere,   ///< there may be surfaces in any place; none is submitted
+    Submitted,  ///< every surface in the depth buffer lies within a receiver that is submitted
+};
+
+/// What is left out of volumes because no pixel can tell. All on: each is exact on every surface
+/// of a receiver that the light reaches; where no surface is (the depth buffer is 0), masks may
+/// differ. `Receivers::Submitted` is needed for what says so.
+struct FillOptions {
+    /// Volumes that cannot be seen are not drawn, and of casters that move not made.
+    bool cull_by_view = true;
+    /// The same for those that reach no receiver within the light's range (Submitted).
+    bool cull_by_receivers = true;
+    /// Far vertices go onto a plane behind the last receiver that the shadow can reach, by the
+    /// projection from the light (Submitted). After D. B. Lloyd et al., "CC Shadow Volumes" (2004).
+    bool clamp = true;
+    /// VolumeDraw::bounds is what the volume can change of the picture, else all of it.
+    bool scissor = true;
+
+    [[nodiscard]] static constexpr FillOptions none() { return {false, false, false, false}; }
+};
+
+}  // namespace gnomon::shadows

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// ScreenBounds: the part of a picture that something can cover, as a scissor wants it.
+// Conservative: what it leaves out is provably not covered; what it holds may well be empty.
+#pragma once
+
+#include <algorithm>
+
+#include <glm/glm.hpp>
+
+#include <gnomon/shadows/view.hpp>
+
+namespace gnomon::shadows {
+
+/// A rectangle in normalised device coordinates: x to the right, y up, -1 .. 1 is the picture.
+struct ScreenBounds {
+    glm::vec2 min{-1.0F};
+    glm::vec2 max{1.0F};
+
+    [[nodiscard]] bool empty() const { return !(min.x < max.x && min.y < max.y); }
+    [[nodiscard]] bool everything() const {
+        return min.x <= -1.0F && min.y <= -1.0F && max.x >= 1.0F && max.y >= 1.0F;
+    }
+    bool operator==(const ScreenBounds&) const = default;
+
+    [[nodiscard]] static ScreenBounds nothing() { return {glm::vec2(1.0F), glm::vec2(-1.0F)}; }
+};
+
+[[nodiscard]] inline ScreenBounds intersection(const ScreenBounds& a, const ScreenBounds& b) {
+    return {glm::max(a.min, b.min), glm::min(a.max, b.max)};
+}
+
+[[nodiscard]] inline ScreenBounds united(const ScreenBounds& a, const ScreenBounds& b) {
+    if (a.empty()) return b;
+    if (b.empty()) return a;
+    return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
+}
+
+/// Pixels of a target, row 0 on top.
+struct PixelRect {
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    bool operator==(const PixelRect&) const = default;
+};
+
+/// The pixels that `bounds` touches in a target of this size, and two more on each side: a
+/// rasteriser's vertices are rounded. Empty where the bounds are.
+[[nodiscard]] PixelRect pixels_of(const ScreenBounds& bounds, std::uint32_t width,
+                                  std::uint32_t height);
+
+}  // namespace gnomon::shadows
