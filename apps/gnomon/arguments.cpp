@@ -172,11 +172,14 @@ Result<render::Overlays> parse_overlays(std::string_view text) {
             overlays.wireframe = true;
         } else if (part == "count") {
             overlays.count = true;
+        } else if (part == "fill") {
+            overlays.fill = true;
         } else {
             return fail(
                 ErrorCode::InvalidInput,
                 fmt::format(
-                    "--show: \"{}\" is none of volumes, silhouettes, caps, wireframe, count.",
+                    "--show: \"{}\" is none of volumes, silhouettes, caps, wireframe, count, "
+                    "fill.",
                     part));
         }
     }

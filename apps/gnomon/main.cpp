@@ -76,9 +76,14 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
                      "had to be split, 0 and 255")
         ->check(named)
         ->type_name("PREFIX");
-    render->add_option("--stats", o.stats, "Write measurements here (JSON)")
-        ->check(named)
-        ->type_name("FILE.json");
+    auto* stats = render->add_option("--stats", o.stats, "Write measurements here (JSON)")
+                      ->check(named)
+                      ->type_name("FILE.json");
+    render
+        ->add_flag("--meter", o.meter,
+                   "Have the device count the stencil fragments of each frame, once its time is "
+                   "taken, for --stats")
+        ->needs(stats);
     render
         ->add_option("--backend", o.backend,
                      fmt::format("One of {}", fmt::join(cli::backend_names(), ", ")))
@@ -183,8 +188,9 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
         ->type_name("LIST");
     render->add_flag("--list-silhouettes", list_silhouettes, "List the names for --silhouette");
     render
-        ->add_option_function<std::string>("--show", parsed_into(o.overlays, cli::parse_overlays),
-                                           "Debug views: volumes,silhouettes,caps,wireframe,count")
+        ->add_option_function<std::string>(
+            "--show", parsed_into(o.overlays, cli::parse_overlays),
+            "Debug views: volumes,silhouettes,caps,wireframe,count,fill")
         ->type_name("LIST");
     render->add_option("--frames", o.frames, "How many frames; the last one is written")
         ->check(CLI::Range(1, 1000000));

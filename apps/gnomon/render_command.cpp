@@ -50,6 +50,11 @@ public:
 
 private:
     Status read_masks(std::size_t light);
+    // The null device counts as it draws: nothing.
+    [[nodiscard]] bool meters() const {
+        const gpu::Caps& caps = device_.caps();
+        return options_.meter && caps.features.occlusion_query && caps.backend != "null";
+    }
 
     const RenderOptions& options_;
     Shot shot_;
@@ -71,7 +76,8 @@ Status Run::start() {
                                                        .sample_count = options_.samples,
                                                        .averted_faces = averted_faces,
                                                        .cull_back_faces = options_.cull_back,
-                                                       .overlays = options_.overlays});
+                                                       .overlays = options_.overlays,
+                                                       .meter_fill = meters()});
     if (!renderer) return forward_error(renderer);
     renderer_ = std::move(*renderer);
     animator_.emplace(shot_, options_.motion);
@@ -145,6 +151,11 @@ Status Run::frame(std::uint32_t index, bool last) {
     record.upload_bytes = after.uploaded_bytes - before.uploaded_bytes - read_back.uploaded_bytes;
     record.draw_calls = after.draw_calls - before.draw_calls - read_back.draw_calls;
     record.shadows = list.stats;
+    if (meters()) {
+        auto fill = renderer_->measure_fill();
+        if (!fill) return forward_error(fill);
+        record.fill = std::move(*fill);
+    }
     record_.frames.push_back(record);
     return {};
 }

@@ -24,6 +24,7 @@ struct RenderOptions {
     std::filesystem::path out = {};
     std::string stencil_prefix = {};
     std::filesystem::path stats = {};
+    bool meter = false;
     std::string backend = {};
     std::string gl_stencil = {};
     Size size = {};

@@ -5,8 +5,22 @@
 
 namespace gnomon::cli {
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Null where nothing was counted.
+Json sum_of(const std::optional<std::vector<shadow_pass::LightFill>>& fill,
+            std::uint64_t shadow_pass::LightFill::*member) {
+    if (!fill) return nullptr;
+    std::uint64_t sum = 0;
+    for (const shadow_pass::LightFill& light : *fill) sum += light.*member;
+    return sum;
+}
+
+}  // namespace
+
 std::string to_json(const RunRecord& run) {
-    using Json = nlohmann::ordered_json;
     Json frames = Json::array();
     for (const FrameRecord& frame : run.frames) {
         const shadows::FrameStats& s = frame.shadows;
@@ -20,32 +34,34 @@ std::string to_json(const RunRecord& run) {
             if (s.reasons[i] > 0)
                 reasons[std::string(to_string(static_cast<shadows::Reason>(i)))] = s.reasons[i];
         }
-        frames.push_back({{"frame_ms", frame.frame_ms},
-                          {"detect_ms", s.detect_ms},
-                          {"build_ms", s.build_ms},
-                          {"record_ms", frame.record_ms},
-                          {"submit_ms", frame.submit_ms},
-                          {"pairs", s.pairs},
-                          {"pairs_culled", s.pairs_culled},
-                          {"pairs_hidden", s.pairs_hidden},
-                          {"pairs_clamped", s.pairs_clamped},
-                          {"pairs_redetected", s.pairs_redetected},
-                          {"pairs_reused", s.pairs_reused},
-                          {"zpass_pairs", s.zpass_pairs},
-                          {"zfail_pairs", s.zfail_pairs},
-                          {"silhouette_edges", s.silhouette_edges},
-                          {"quad_pairs", s.quad_pairs},
-                          {"faces_tested", s.detection.faces_tested},
-                          {"stencil_batches", s.stencil_batches},
-                          {"split_lights", s.split_lights},
-                          {"double_tests", s.detection.double_tests},
-                          {"exact_tests", s.detection.exact_tests},
-                          {"upload_bytes", frame.upload_bytes},
-                          {"draw_calls", frame.draw_calls},
-                          {"stencil_fragments", nullptr},
-                          {"silhouette", std::string(s.silhouette)},
-                          {"silhouette_choices", choices},
-                          {"reasons", reasons}});
+        frames.push_back(
+            {{"frame_ms", frame.frame_ms},
+             {"detect_ms", s.detect_ms},
+             {"build_ms", s.build_ms},
+             {"record_ms", frame.record_ms},
+             {"submit_ms", frame.submit_ms},
+             {"pairs", s.pairs},
+             {"pairs_culled", s.pairs_culled},
+             {"pairs_hidden", s.pairs_hidden},
+             {"pairs_clamped", s.pairs_clamped},
+             {"pairs_redetected", s.pairs_redetected},
+             {"pairs_reused", s.pairs_reused},
+             {"zpass_pairs", s.zpass_pairs},
+             {"zfail_pairs", s.zfail_pairs},
+             {"silhouette_edges", s.silhouette_edges},
+             {"quad_pairs", s.quad_pairs},
+             {"faces_tested", s.detection.faces_tested},
+             {"stencil_batches", s.stencil_batches},
+             {"split_lights", s.split_lights},
+             {"double_tests", s.detection.double_tests},
+             {"exact_tests", s.detection.exact_tests},
+             {"upload_bytes", frame.upload_bytes},
+             {"draw_calls", frame.draw_calls},
+             {"stencil_fragments", sum_of(frame.fill, &shadow_pass::LightFill::rasterised)},
+             {"stencil_fragments_counted", sum_of(frame.fill, &shadow_pass::LightFill::counted)},
+             {"silhouette", std::string(s.silhouette)},
+             {"silhouette_choices", choices},
+             {"reasons", reasons}});
     }
     const Json json{{"backend", run.caps.backend},
                     {"adapter", run.caps.adapter},

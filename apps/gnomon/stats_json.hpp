@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <gnomon/gpu/caps.hpp>
+#include <gnomon/shadow_pass/fill_meter.hpp>
 #include <gnomon/shadows/shadow_system.hpp>
 
 namespace gnomon::cli {
@@ -20,6 +22,7 @@ struct FrameRecord {
     std::uint64_t upload_bytes = 0;
     std::uint64_t draw_calls = 0;
     shadows::FrameStats shadows;
+    std::optional<std::vector<shadow_pass::LightFill>> fill;  ///< none: not asked for, or no way
 };
 
 struct RunRecord {

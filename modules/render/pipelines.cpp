@@ -162,6 +162,11 @@ Result<Pipelines> create_pipelines(gpu::Device& device, const RendererDesc& desc
     d.depth_stencil->stencil_front.compare = Compare::Equal;
     d.depth_stencil->stencil_back.compare = Compare::Equal;
     make.pipeline(d, p.count);
+    d.label = "fill overlay";
+    for (std::uint32_t band = 0; band < fill_bands && desc.overlays.fill; ++band) {
+        d.depth_stencil->stencil_read_mask = 0xFFU << band & 0xFFU;
+        make.pipeline(d, p.fill[band]);
+    }
 
     d.label = "tone map";
     d.fragment = tone_map;

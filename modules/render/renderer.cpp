@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include <gnomon/core/expects.hpp>
 #include <gnomon/shadow_pass/stencil_samples.hpp>
 
 #include "internal/gpu_scene.hpp"
@@ -34,7 +35,7 @@ struct DrawUniforms {
 };
 
 // Overlay colours, in the order of their places in the uniform buffer. From `first_count` on:
-// counts 1, 2, 3, ….
+// counts 1, 2, 3, …, and fill of 1, 2 and 3, 4 to 7, ….
 enum OverlayColor : std::uint32_t { Volumes, Silhouettes, Caps, Wireframe, first_count };
 constexpr std::array<glm::vec4, 12> overlay_colors{{{1.1F, 0.85F, 0.05F, 0.16F},
                                                     {2.2F, 0.12F, 0.9F, 1.0F},
@@ -98,6 +99,7 @@ struct Renderer::State {
     std::vector<Instance> instances;
     bool unclipped = false;               // this frame's geometry
     std::optional<scene::Bounds> bounds;  // of the scene when it was first drawn
+    std::size_t light_count = 0;          // of the last frame
     FrameTimes times;
 
     State(gpu::Device& d, const RendererDesc& description)
@@ -115,6 +117,7 @@ struct Renderer::State {
     [[nodiscard]] gpu::RenderPassDesc scene_pass(std::string label, bool first) const;
     void record_light(gpu::CommandEncoder& encoder, std::size_t index,
                       const internal::FrameLight& light) const;
+    void record_fill_overlay(gpu::CommandEncoder& encoder, std::size_t lights) const;
     Status record_overlays(gpu::CommandEncoder& encoder, const FrameInput& frame);
     void record_picture(gpu::CommandEncoder& encoder) const;
 };
@@ -134,7 +137,8 @@ Status Renderer::State::create() {
          .silhouette_lines = desc.overlays.silhouettes,
          .cap_parts = desc.overlays.caps,
          .expand_quads = desc.overlays.volumes || desc.overlays.silhouettes || desc.overlays.caps,
-         .averted_faces = desc.averted_faces});
+         .averted_faces = desc.averted_faces,
+         .meter = desc.meter_fill || desc.overlays.fill});
     if (!pass) return forward_error(pass);
     shadows = std::move(*pass);
     auto made_pipelines =
@@ -318,9 +322,25 @@ void Renderer::State::record_light(gpu::CommandEncoder& encoder, std::size_t ind
     }
 }
 
+void Renderer::State::record_fill_overlay(gpu::CommandEncoder& encoder, std::size_t lights) const {
+    auto pass = encoder.begin_render_pass(scene_pass("fill overlay", false));
+    for (std::size_t light = 0; light < lights; ++light) {
+        shadows->record_fill(pass, light, shadow_pass::Fill::PerPixel);
+    }
+    for (std::uint32_t band = 0; band < internal::fill_bands; ++band) {
+        const std::uint32_t offset = (first_count + band) * uniform_stride;
+        pass.set_pipeline(pipelines.fill[band]);
+        pass.set_bind_group(0, draws.group, std::array<std::uint32_t, 1>{0});
+        pass.set_bind_group(1, overlay_group, std::span(&offset, 1));
+        pass.set_stencil_reference(1U << band);
+        pass.draw(3);
+    }
+}
+
 Status Renderer::State::record_overlays(gpu::CommandEncoder& encoder, const FrameInput& input) {
     const Overlays& show = desc.overlays;
     if (!show.any()) return {};
+    if (show.fill && !instances.empty()) record_fill_overlay(encoder, input.shadows.lights.size());
     if (show.wireframe) {
         for (const Instance& instance : instances) {
             if (const Status made = gpu_scene.ensure_lines(*instance.mesh); !made) return made;
@@ -403,8 +423,11 @@ Status Renderer::render(const FrameInput& input) {
     const auto lights =
         internal::frame_lights(input.scene, *s.bounds, input.shadows.lights, input.view);
     if (const Status done = s.write_frame_uniforms(input, lights); !done) return done;
-    if (const Status done = s.shadows->prepare(input.shadows, input.view, {s.desc.width, s.desc.height});
-        !done) return done;
+    if (const Status done =
+            s.shadows->prepare(input.shadows, input.view, {s.desc.width, s.desc.height});
+        !done)
+        return done;
+    s.light_count = lights.size();
 
     gpu::CommandEncoder encoder = s.device->create_command_encoder("frame");
     const auto submit = [&]() -> Status {
@@ -435,6 +458,12 @@ Status Renderer::render(const FrameInput& input) {
     const Status submitted = submit();
     s.times.record_ms = milliseconds_since(start) - s.times.submit_ms - called_back_ms;
     return submitted;
+}
+
+Result<std::vector<shadow_pass::LightFill>> Renderer::measure_fill() {
+    GNOMON_EXPECTS(state_->desc.meter_fill);
+    return shadow_pass::count_fill(*state_->device, *state_->shadows,
+                                   state_->scene_pass("fill meter", false), state_->light_count);
 }
 
 gpu::TextureId Renderer::picture() const { return state_->targets.picture; }

@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include <gnomon/core/result.hpp>
 #include <gnomon/gpu/device.hpp>
 #include <gnomon/scene/scene.hpp>
+#include <gnomon/shadow_pass/fill_meter.hpp>
 #include <gnomon/shadow_pass/shadow_pass.hpp>
 #include <gnomon/shadows/shadow_system.hpp>
 #include <gnomon/shadows/view.hpp>
@@ -26,8 +28,14 @@ struct Overlays {
     bool caps = false;         ///< near caps, turquoise
     bool wireframe = false;    ///< all triangles of the scene
     bool count = false;        ///< the stencil count as a heat map
+    /// Stencil fragments a sample, of all lights together, as a heat map of powers of two, from
+    /// blue (1), cyan (2 and 3) and green (4 to 7) by yellow and red to white (128 and more). The
+    /// stencil then holds their number.
+    bool fill = false;
 
-    [[nodiscard]] bool any() const { return volumes || silhouettes || caps || wireframe || count; }
+    [[nodiscard]] bool any() const {
+        return volumes || silhouettes || caps || wireframe || count || fill;
+    }
 };
 
 struct RendererDesc {
@@ -43,6 +51,7 @@ struct RendererDesc {
     shadow_pass::AvertedFaces averted_faces = shadow_pass::AvertedFaces::Shadowed;
     bool cull_back_faces = false;  ///< default: both sides of every triangle go into depth
     Overlays overlays = {};
+    bool meter_fill = false;  ///< for Renderer::measure_fill()
 };
 
 struct FrameInput {
@@ -75,6 +84,11 @@ public:
 
     /// One frame, submitted; does not wait for the device.
     [[nodiscard]] Status render(const FrameInput& frame);
+
+    /// Stencil fragments of the last render(), one entry a light, in the order of its draw list:
+    /// shadow_pass::count_fill(). Blocks until the device has counted; the picture and the stencil
+    /// stay as they are. Needs RendererDesc::meter_fill.
+    [[nodiscard]] Result<std::vector<shadow_pass::LightFill>> measure_fill();
 
     /// The finished picture: Rgba8Unorm, already sRGB-encoded.
     [[nodiscard]] gpu::TextureId picture() const;

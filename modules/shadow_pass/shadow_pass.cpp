@@ -9,22 +9,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include <gnomon/core/expects.hpp>
 #include <gnomon_shaders/shadow_pass.hpp>
 
-#include "internal/gpu_quads.hpp"
-#include "internal/index_arena.hpp"
-#include "internal/mesh_caps.hpp"
-#include "internal/stencil_fold.hpp"
-#include "internal/volume_draws.hpp"
-#include "internal/volume_pipelines.hpp"
+#include "internal/pass_state.hpp"
 
 namespace gnomon::shadow_pass {
-
-using internal::pipeline_index;
-using internal::Pipelines;
-using internal::Run;
-using internal::VertexStage;
-using shadows::Technique;
 
 namespace {
 
@@ -38,11 +28,6 @@ struct VolumeUniforms {
 
 constexpr std::uint32_t quad_uniform_bytes =
     sizeof(VolumeUniforms) + sizeof(internal::QuadUniforms);
-
-// Of a table by QuadFacing, without None.
-std::size_t place_of(shadows::QuadFacing facing) {
-    return facing == shadows::QuadFacing::Uploaded ? 0 : 1;
-}
 
 bool is_same_view(const shadows::View& a, const shadows::View& b) {
     return a.projection == b.projection && a.view_from_world == b.view_from_world &&
@@ -61,108 +46,6 @@ std::vector<std::uint32_t> with_silhouette_lines(const shadows::Volume& volume) 
 }
 
 }  // namespace
-
-struct ShadowPass::State {
-    gpu::Device* device = nullptr;
-    ShadowPassDesc desc;
-    gpu::BindGroupLayout layout;
-    gpu::Shader vertex;
-    gpu::Shader fragment;
-    Pipelines pipelines;
-    // What lights that are split into batches need more, made when the first one comes.
-    struct Batching {
-        internal::StencilFold fold;
-        Pipelines pipelines;
-    };
-    std::optional<Batching> batching;
-    // What volumes from quads on every edge need, made when the first one comes: pipelines by how
-    // facing is found, and the same for batches.
-    struct Quads {
-        internal::GpuQuads gpu;
-        std::array<std::optional<Pipelines>, 2> pipelines = {};
-        std::array<std::optional<Pipelines>, 2> batched = {};
-    };
-    std::optional<Quads> quads;
-    std::uint32_t uniform_stride = 256;
-    gpu::Buffer uniforms;
-    std::uint64_t uniforms_size = 0;
-    gpu::BindGroup bind_group;
-    gpu::BindGroupId quad_uniforms;
-
-    struct MeshVertices {
-        gpu::Buffer buffer;
-        std::uint64_t used = 0;
-    };
-    struct VolumeRun {
-        internal::IndexRun run;
-        // What is there: [begin, end) of Volume::indices.
-        std::uint32_t begin = 0;
-        std::uint32_t end = 0;
-        std::uint64_t used = 0;
-    };
-    std::unordered_map<std::uint64_t, MeshVertices> meshes;  // by ShadowMesh::id
-    std::unordered_map<std::uint64_t, VolumeRun> volumes;    // by revision
-    std::vector<gpu::Buffer> extruded;                       // by draw, on the CPU path
-    std::vector<std::uint64_t> extruded_sizes;
-    internal::IndexArena indices;
-    internal::MeshCaps mesh_caps;
-    std::uint64_t generation = 0;
-    // What was prepared last; 0 for a list of no system, or after a failure.
-    std::uint64_t prepared_revision = 0;
-    shadows::View prepared_view;
-    TargetSize target;  // zero: not known
-
-    struct Recorded {
-        gpu::BufferId vertices;
-        VolumeRun indices;
-        internal::IndexRun mesh_caps;  // where a run is of them
-        bool exchanged = false;
-        bool unclipped = false;
-        Technique technique = Technique::DepthFail;
-        std::vector<Run> runs;
-        std::uint32_t batch = 0;
-        std::shared_ptr<const shadows::Volume> volume;
-        std::vector<Run> near_caps;  // for Part::Caps, where it may be asked for
-        shadows::QuadFacing quads = shadows::QuadFacing::None;
-        gpu::BindGroupId quad_textures = {};
-        shadows::PixelRect scissor = {};  // of State::target, if that is known
-    };
-    std::vector<Recorded> recorded;
-    std::vector<shadows::LightDraws> lights;
-    PassStats stats;
-
-    State(gpu::Device& d, const ShadowPassDesc& description)
-        : device(&d), desc(description), indices(d) {}
-
-    Status create_shaders();
-    [[nodiscard]] VertexStage volume_stage() const { return {{layout}, vertex, {vertex_layout()}}; }
-    Result<Pipelines> create_pipelines(const VertexStage& stage, std::uint32_t count_mask) {
-        return internal::create_volume_pipelines(*device, desc, stage, fragment, count_mask);
-    }
-    Status create_quads(const shadows::DrawList& list);
-    [[nodiscard]] const Pipelines& quad_pipelines(shadows::QuadFacing facing, bool batched) const {
-        return *(batched ? quads->batched : quads->pipelines)[place_of(facing)];
-    }
-    Status create_batching();
-    [[nodiscard]] gpu::VertexBufferLayout vertex_layout() const;
-    Status write_uniforms(const shadows::DrawList& list, const shadows::View& view);
-    Result<gpu::BufferId> vertices_of(const shadows::ShadowMesh& mesh);
-    Result<gpu::BufferId> extruded_vertices_of(std::size_t index, const shadows::VolumeDraw& draw);
-    Result<VolumeRun> indices_of(const shadows::VolumeDraw& draw, std::span<const Run> runs);
-    void free_unused();
-    [[nodiscard]] shadows::PixelRect scissor_of(const shadows::ScreenBounds& bounds) const {
-        return shadows::pixels_of(bounds, target.width, target.height);
-    }
-    [[nodiscard]] shadows::PixelRect everything() const {
-        return {0, 0, target.width, target.height};
-    }
-    // `current`: what is set.
-    static void set_scissor(gpu::RenderPassEncoder& encoder, const shadows::PixelRect& wanted,
-                            shadows::PixelRect& current);
-    // `bound`: the chunk of indices that is, if any.
-    void draw(gpu::RenderPassEncoder& encoder, const Recorded& volume, const Run& run,
-              std::optional<std::uint32_t>& bound) const;
-};
 
 gpu::VertexBufferLayout ShadowPass::State::vertex_layout() const {
     const bool on_cpu = desc.extrusion == ExtrusionPath::Cpu;
@@ -197,11 +80,11 @@ Status ShadowPass::State::create_shaders() {
 }
 
 Status ShadowPass::State::create_batching() {
-    auto fold = internal::StencilFold::create(*device, desc);
-    if (!fold) return forward_error(fold);
-    auto made = create_pipelines(volume_stage(), internal::StencilFold::count_mask);
-    if (!made) return forward_error(made);
-    batching.emplace(Batching{std::move(*fold), std::move(*made)});
+    const Status made = pipelines->ensure(shadows::QuadFacing::None, volume_stage(), true);
+    if (!made) return made;
+    auto made_fold = internal::StencilFold::create(*device, desc);
+    if (!made_fold) return forward_error(made_fold);
+    fold.emplace(std::move(*made_fold));
     return {};
 }
 
@@ -214,17 +97,12 @@ Status ShadowPass::State::create_quads(const shadows::DrawList& list) {
             if (!quads) {
                 auto made = internal::GpuQuads::create(*device, quad_uniform_bytes);
                 if (!made) return forward_error(made);
-                quads.emplace(Quads{std::move(*made)});
+                quads.emplace(std::move(*made));
             }
-            const bool batched = light.batches > 1;
-            auto& pipelines_of =
-                (batched ? quads->batched : quads->pipelines)[place_of(draw.quads->facing)];
-            if (pipelines_of) continue;
-            auto made = create_pipelines(
-                {quads->gpu.layouts(), quads->gpu.vertex_shader(draw.quads->facing), {}},
-                batched ? internal::StencilFold::count_mask : 0xFF);
-            if (!made) return forward_error(made);
-            pipelines_of = std::move(*made);
+            const shadows::QuadFacing facing = draw.quads->facing;
+            const Status made = pipelines->ensure(
+                facing, {quads->layouts(), quads->vertex_shader(facing), {}}, light.batches > 1);
+            if (!made) return made;
         }
     }
     return {};
@@ -382,9 +260,10 @@ Result<ShadowPass> ShadowPass::create(gpu::Device& device, const ShadowPassDesc&
     const std::uint32_t size = quad_uniform_bytes;
     state->uniform_stride = (size + alignment - 1) / alignment * alignment;
     if (const Status created = state->create_shaders(); !created) return forward_error(created);
-    auto pipelines = state->create_pipelines(state->volume_stage(), 0xFF);
-    if (!pipelines) return forward_error(pipelines);
-    state->pipelines = std::move(*pipelines);
+    state->pipelines.emplace(device, desc, state->fragment);
+    const Status made =
+        state->pipelines->ensure(shadows::QuadFacing::None, state->volume_stage(), false);
+    if (!made) return forward_error(made);
     return ShadowPass(std::move(state));
 }
 
@@ -417,14 +296,14 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         if (const auto found = s.volumes.find(draw.revision); found != s.volumes.end()) {
             found->second.used = s.generation;
         }
-        if (s.quads && draw.quads) s.quads->gpu.keep(draw.revision, s.generation);
+        if (s.quads && draw.quads) s.quads->keep(draw.revision, s.generation);
     }
     s.free_unused();
-    if (s.quads) s.quads->gpu.free_unused(s.generation);
+    if (s.quads) s.quads->free_unused(s.generation);
     if (const Status created = s.create_quads(list); !created) return created;
     for (const shadows::LightDraws& light : list.lights) {
         if (light.batches <= 1) continue;
-        if (!s.batching) {
+        if (!s.fold) {
             if (const Status created = s.create_batching(); !created) return created;
         }
         s.stats.draw_calls += light.batches + 1;
@@ -449,7 +328,7 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
                             " lacks unclipped depth. Use an infinite perspective.");
         }
         if (draw.quads) {
-            auto textures = s.quads->gpu.textures_of(draw, s.generation, s.stats.uploaded_bytes);
+            auto textures = s.quads->textures_of(draw, s.generation, s.stats.uploaded_bytes);
             if (!textures) return forward_error(textures);
             s.recorded.push_back(
                 {.vertices = {},
@@ -492,7 +371,7 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
     }
     if (const Status written = s.write_uniforms(list, view); !written) return written;
     if (any_quads) {
-        auto uniforms = s.quads->gpu.uniforms_in(s.uniforms);
+        auto uniforms = s.quads->uniforms_in(s.uniforms);
         if (!uniforms) return forward_error(uniforms);
         s.quad_uniforms = *uniforms;
     }
@@ -500,99 +379,6 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
     s.prepared_revision = list.revision;
     s.prepared_view = view;
     return {};
-}
-
-void ShadowPass::State::draw(gpu::RenderPassEncoder& encoder, const Recorded& volume,
-                             const Run& run, std::optional<std::uint32_t>& bound) const {
-    const internal::IndexRun& where = run.of_mesh ? volume.mesh_caps : volume.indices.run;
-    const std::uint32_t first = run.of_mesh ? run.first : run.first - volume.indices.begin;
-    if (bound != where.chunk) {
-        encoder.set_index_buffer(indices.buffer(where.chunk), gpu::IndexFormat::Uint32);
-        bound = where.chunk;
-    }
-    encoder.draw_indexed(run.count, 1, where.first + first, run.base_vertex);
-}
-
-void ShadowPass::State::set_scissor(gpu::RenderPassEncoder& encoder,
-                                    const shadows::PixelRect& wanted, shadows::PixelRect& current) {
-    if (wanted == current) return;
-    encoder.set_scissor_rect(wanted.x, wanted.y, wanted.width, wanted.height);
-    current = wanted;
-}
-
-void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) const {
-    const State& s = *state_;
-    const shadows::LightDraws& of_light = s.lights[light];
-    encoder.push_debug_group("shadow volumes");
-    const bool batched = of_light.batches > 1;
-    const Pipelines& pipelines = batched ? s.batching->pipelines : s.pipelines;
-    const gpu::RenderPipeline* current = nullptr;
-    shadows::PixelRect scissor = s.everything();
-    std::optional<std::uint32_t> indices;
-    for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
-        const State::Recorded& volume = s.recorded[i];
-        if (batched && i > of_light.first && volume.batch != s.recorded[i - 1].batch) {
-            State::set_scissor(encoder, s.everything(), scissor);
-            s.batching->fold.fold(encoder);
-            current = nullptr;
-        }
-        if (volume.runs.empty()) continue;
-        State::set_scissor(encoder, volume.scissor, scissor);
-        const std::uint32_t offset = i * s.uniform_stride;
-        const bool quads = volume.quads != shadows::QuadFacing::None;
-        if (quads) {
-            encoder.set_bind_group(0, s.quad_uniforms, std::span(&offset, 1));
-            encoder.set_bind_group(1, volume.quad_textures);
-        } else {
-            encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
-            encoder.set_vertex_buffer(0, volume.vertices);
-        }
-        const Pipelines& of_stage = quads ? s.quad_pipelines(volume.quads, batched) : pipelines;
-        for (const Run& run : volume.runs) {
-            const auto& pipeline = of_stage[pipeline_index(
-                volume.technique, volume.exchanged != run.exchanged, volume.unclipped, run.role)];
-            if (&pipeline != current) encoder.set_pipeline(pipeline);
-            current = &pipeline;
-            if (quads) {
-                encoder.draw(run.count, 1, run.first);
-            } else {
-                s.draw(encoder, volume, run, indices);
-            }
-        }
-    }
-    State::set_scissor(encoder, s.everything(), scissor);
-    if (batched) {
-        s.batching->fold.fold(encoder);
-        s.batching->fold.finish(encoder);
-    }
-    encoder.pop_debug_group();
-}
-
-void ShadowPass::record_part(gpu::RenderPassEncoder& encoder, std::size_t light, Part part,
-                             gpu::RenderPipelineId pipeline) const {
-    const State& s = *state_;
-    const shadows::LightDraws& of_light = s.lights[light];
-    encoder.set_pipeline(pipeline);
-    std::optional<std::uint32_t> indices;
-    for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
-        const State::Recorded& recorded = s.recorded[i];
-        if (recorded.runs.empty() || recorded.quads != shadows::QuadFacing::None) continue;
-        const shadows::Volume& volume = *recorded.volume;
-        const std::uint32_t offset = i * s.uniform_stride;
-        encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
-        encoder.set_vertex_buffer(0, recorded.vertices);
-        const auto draw = [&](std::uint32_t first, std::uint32_t count) {
-            if (count > 0) s.draw(encoder, recorded, {.first = first, .count = count}, indices);
-        };
-        if (part == Part::Sides) draw(volume.sides.first, volume.sides.count);
-        if (part == Part::Caps) {
-            for (const Run& run : recorded.near_caps) s.draw(encoder, recorded, run, indices);
-        }
-        if (part == Part::Silhouettes) {
-            const auto lines = static_cast<std::uint32_t>(volume.indices.size());
-            draw(lines, recorded.indices.run.count - lines);
-        }
-    }
 }
 
 gpu::BindGroupLayoutId ShadowPass::bind_group_layout() const { return state_->layout; }

@@ -84,6 +84,7 @@ struct ShadowPassDesc {
     bool expand_quads = false;
     AvertedFaces averted_faces = AvertedFaces::Shadowed;
     CapBias cap_bias = {};  ///< both values >= 0; none where depth comes from the shared function
+    bool meter = false;     ///< also makes what record_fill() draws with
 };
 
 /// What a debug view may draw of a volume.
@@ -98,6 +99,15 @@ struct TargetSize {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     bool operator==(const TargetSize&) const = default;
+};
+
+/// Which stencil fragments record_fill() lets through to an occlusion query. All are samples: four
+/// a covered pixel where there are four.
+enum class Fill : std::uint8_t {
+    Rasterised,  ///< all that volumes cover, what rasterisation and the stencil test cost
+    Counted,     ///< those that change the count: before the scene by depth-pass, not before it by
+                 ///< depth-fail
+    PerPixel,    ///< as Rasterised, and the stencil of each sample counts its own, up to 255
 };
 
 /// Of the last prepare().
@@ -134,6 +144,14 @@ public:
     /// stencil reference and, where prepare() was told the target's size, the scissor changed: it
     /// covers the target.
     void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
+
+    /// Draws what record() draws, the same triangles under the same scissors, so that the samples
+    /// of `fill` pass and no others do: within an occlusion query of the caller's their number is
+    /// exact, whatever the device (count_fill() in fill_meter.hpp does all of it). Depth is read
+    /// and not written; the stencil is left alone but for Fill::PerPixel. Not drawn are the folds
+    /// of batches: LightDraws::batches + 1 times the viewport where there are several. Needs
+    /// ShadowPassDesc::meter. Cost: about that of record(). Leaves changed what record() does.
+    void record_fill(gpu::RenderPassEncoder& encoder, std::size_t light, Fill fill) const;
 
     // For debug views: draws one part of a light's volumes with a pipeline of the caller's, whose
     // bind group 0 has bind_group_layout(), whose vertex stage is vertex_shader() and whose vertex

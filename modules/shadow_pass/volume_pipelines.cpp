@@ -19,19 +19,48 @@ gpu::Compare or_equal(gpu::Compare compare) {
     return is_reversed(compare) ? gpu::Compare::GreaterEqual : gpu::Compare::LessEqual;
 }
 
+// What depth_compare lets fail.
+gpu::Compare opposite(gpu::Compare compare) {
+    using gpu::Compare;
+    switch (compare) {
+        case Compare::Less: return Compare::GreaterEqual;
+        case Compare::LessEqual: return Compare::Greater;
+        case Compare::Greater: return Compare::LessEqual;
+        case Compare::GreaterEqual: return Compare::Less;
+        case Compare::Equal: return Compare::NotEqual;
+        case Compare::NotEqual: return Compare::Equal;
+        case Compare::Always: return Compare::Never;
+        case Compare::Never: return Compare::Always;
+        case Compare::Undefined: break;
+    }
+    return Compare::Undefined;
+}
+
 // Front and back are named from outside the volume. Depth-fail counts faces behind the surface
 // (equality included: comparison is strict, and caps lie on surfaces), depth-pass those in front.
-gpu::DepthStencilState counting(const ShadowPassDesc& desc, Technique technique, bool exchanged,
-                                Role role, std::uint32_t count_mask) {
+gpu::DepthStencilState state_of(const ShadowPassDesc& desc, Technique technique, bool exchanged,
+                                Role role, const Counting& counting) {
     gpu::DepthStencilState state{.format = desc.depth_stencil_format,
                                  .depth_compare = desc.depth_compare,
-                                 .stencil_write_mask = count_mask};
+                                 .stencil_write_mask = counting.mask};
     if (role == Role::OpenCap) state.depth_compare = or_equal(desc.depth_compare);
     if (role != Role::Volume) {
         const int nearer = is_reversed(desc.depth_compare) ? 1 : -1;
         const int sign = role == Role::OpenCap ? nearer : -nearer;
         state.depth_bias = sign * desc.cap_bias.constant;
         state.depth_bias_slope_scale = static_cast<float>(sign) * desc.cap_bias.slope_scale;
+    }
+    if (counting.fill) {
+        if (*counting.fill != Fill::Counted) {
+            state.depth_compare = gpu::Compare::Always;
+        } else if (technique == Technique::DepthFail) {
+            state.depth_compare = opposite(state.depth_compare);
+        }
+        if (*counting.fill == Fill::PerPixel) {
+            state.stencil_front.pass_op = gpu::StencilOp::IncrementClamp;
+            state.stencil_back.pass_op = gpu::StencilOp::IncrementClamp;
+        }
+        return state;
     }
     gpu::StencilFaceState up;
     gpu::StencilFaceState down;
@@ -54,7 +83,7 @@ gpu::DepthStencilState counting(const ShadowPassDesc& desc, Technique technique,
 
 Result<Pipelines> create_volume_pipelines(gpu::Device& device, const ShadowPassDesc& desc,
                                           const VertexStage& stage, gpu::ShaderId fragment,
-                                          std::uint32_t count_mask) {
+                                          const Counting& counting) {
     Pipelines result;
     gpu::RenderPipelineDesc pipeline;
     pipeline.bind_group_layouts = stage.layouts;
@@ -78,9 +107,10 @@ Result<Pipelines> create_volume_pipelines(gpu::Device& device, const ShadowPassD
                         (technique == Technique::DepthPass ? "depth-pass" : "depth-fail") +
                         (exchanged ? ", exchanged" : "") + (unclipped ? ", unclipped" : "") +
                         (role == Role::Cap ? ", biased caps" : "") +
-                        (role == Role::OpenCap ? ", open caps" : "");
+                        (role == Role::OpenCap ? ", open caps" : "") +
+                        (counting.fill ? ", metered" : "");
                     pipeline.primitive.unclipped_depth = unclipped;
-                    pipeline.depth_stencil = counting(desc, technique, exchanged, role, count_mask);
+                    pipeline.depth_stencil = state_of(desc, technique, exchanged, role, counting);
                     auto made = device.create_render_pipeline(pipeline);
                     if (!made) return forward_error(made);
                     result[pipeline_index(technique, exchanged, unclipped, role)] =

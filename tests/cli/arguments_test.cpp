@@ -101,8 +101,10 @@ TEST(Arguments, overlays_are_a_list) {
     const render::Overlays some = parse_overlays("volumes,count").value();
     EXPECT_TRUE(some.volumes && some.count);
     EXPECT_FALSE(some.silhouettes || some.caps || some.wireframe);
-    const render::Overlays all = parse_overlays("volumes,silhouettes,caps,wireframe,count").value();
-    EXPECT_TRUE(all.volumes && all.silhouettes && all.caps && all.wireframe && all.count);
+    const render::Overlays all =
+        parse_overlays("volumes,silhouettes,caps,wireframe,count,fill").value();
+    EXPECT_TRUE(all.volumes && all.silhouettes && all.caps && all.wireframe && all.count &&
+                all.fill);
     for (const char* text : {"", "volume", "Volumes", "caps ", "all"})
         expect_refused(parse_overlays(text), text);
     expect_refused(parse_overlays("volumes,"), "");

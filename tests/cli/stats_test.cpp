@@ -124,6 +124,33 @@ TEST_F(Stats, reading_masks_back_is_not_counted) {
         EXPECT_EQ(with[member], without[member]);
 }
 
+TEST_F(Stats, fragments_are_counted_where_the_backend_can_and_when_asked) {
+    for (const char* backend : {"gl", "vk", "null"}) {
+        if (std::string(backend) != "null" && !draws(backend)) continue;
+        SCOPED_TRACE(backend);
+        const Arguments plain{"--backend", backend, "--frames", "2"};
+        const auto without = stats_of("builtin:still-life", plain)["frames"];
+        const auto with = stats_of("builtin:still-life", joined(plain, {"--meter"}))["frames"];
+        for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_TRUE(without[i]["stencil_fragments"].is_null());
+            EXPECT_TRUE(without[i]["stencil_fragments_counted"].is_null());
+            for (const char* member : {"draw_calls", "upload_bytes"})
+                EXPECT_EQ(with[i][member], without[i][member]) << "counting is not counted";
+            if (std::string(backend) == "null") {
+                EXPECT_TRUE(with[i]["stencil_fragments"].is_null()) << "it draws nothing";
+                continue;
+            }
+            const auto fragments = with[i]["stencil_fragments"].get<std::uint64_t>();
+            const auto counted = with[i]["stencil_fragments_counted"].get<std::uint64_t>();
+            EXPECT_GT(fragments, 160U * 120U);
+            EXPECT_GT(counted, 0U);
+            EXPECT_LT(counted, fragments);
+            EXPECT_EQ(with[i]["stencil_fragments"], with[0]["stencil_fragments"]);
+        }
+    }
+    expect_refused(render("builtin:knot", {"--meter"}), {"--meter", "--stats"});
+}
+
 TEST_F(Stats, casters_beyond_a_lights_range_are_culled) {
     const auto frame = stats_of("builtin:still-life", {"--backend", "null", "--light",
                                                        "point:0,100,0,range=1"})["frames"][0];

@@ -69,7 +69,7 @@ TEST_P(Renderer, every_overlay_shows) {
     const auto plain = must(draw(device(), setting, small));
     for (bool render::Overlays::*overlay :
          {&render::Overlays::volumes, &render::Overlays::silhouettes, &render::Overlays::caps,
-          &render::Overlays::wireframe, &render::Overlays::count}) {
+          &render::Overlays::wireframe, &render::Overlays::count, &render::Overlays::fill}) {
         render::RendererDesc desc = small;
         desc.overlays.*overlay = true;
         EXPECT_NE(must(draw(device(), setting, desc)), plain);

@@ -12,6 +12,9 @@
 
 namespace gnomon::render::internal {
 
+/// Band k of the fill overlay: stencil values from 2^k on, below 2^(k+1).
+inline constexpr std::uint32_t fill_bands = 8;
+
 /// Which triangles a geometry pipeline leaves out. A mirrored instance turns its winding over.
 enum class Culling : std::uint8_t { None, Back, BackMirrored };
 
@@ -39,6 +42,7 @@ struct Pipelines {
     gpu::RenderPipeline volume_triangles;
     gpu::RenderPipeline volume_lines;
     gpu::RenderPipeline count;
+    std::array<gpu::RenderPipeline, fill_bands> fill;
 };
 
 [[nodiscard]] Result<Pipelines> create_pipelines(gpu::Device& device, const RendererDesc& desc,

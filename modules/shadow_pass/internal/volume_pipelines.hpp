@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <gnomon/core/result.hpp>
@@ -35,12 +36,18 @@ using Pipelines = std::array<gpu::RenderPipeline, 8 * role_count>;
            (unclipped ? 4U : 0U) + 8U * static_cast<std::size_t>(role);
 }
 
-/// Every stencil operation wraps within `count_mask` and leaves the other bits alone. Fails as the
+/// What a pipeline is for.
+struct Counting {
+    std::uint32_t mask = 0xFF;                ///< stencil bits that count
+    std::optional<Fill> fill = std::nullopt;  ///< for record_fill(): counts nothing itself
+};
+
+/// Every stencil operation wraps within the mask and leaves the other bits alone. Fails as the
 /// device does.
 [[nodiscard]] Result<Pipelines> create_volume_pipelines(gpu::Device& device,
                                                         const ShadowPassDesc& desc,
                                                         const VertexStage& stage,
                                                         gpu::ShaderId fragment,
-                                                        std::uint32_t count_mask);
+                                                        const Counting& counting);
 
 }  // namespace gnomon::shadow_pass::internal
