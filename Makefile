@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test soak install format tidy clean FORCE
+.PHONY: help setup build demo test soak bench peers docs install format tidy clean FORCE
 
 help: ## this list
 	@echo "gnomon: exact hard shadows. Targets:"
@@ -61,6 +61,16 @@ bench: build ## run the benchmarks, and write bench/results/*.json and the table
 	@build/bin/gnomon-bench --benchmark_min_time=0.05 --benchmark_out=build/bench.json --benchmark_out_format=json
 	@scripts/performance-tables bench/results/strategies.json --micro build/bench.json \
 		--micro-out bench/results/functions.json --document docs/performance.md
+
+# Rounds of the comparison. Fewer for a first look: where the processor draws, some frames take seconds.
+PEERS_ROUNDS ?= 9
+
+peers: build/build.ninja ## compare with OGRE's and Irrlicht's shadows, and write bench/results/peers.json and its tables
+	@scripts/setup --peers
+	@cmake --preset release
+	@cmake --build build --target peers
+	@bench/peers/gnomon-peers --programs build/bin --rounds $(PEERS_ROUNDS) --out bench/results/peers.json --pictures build/peers
+	@scripts/performance-tables --peers bench/results/peers.json --document docs/performance.md
 
 docs: ## the reference of all public headers and the guides, in build/docs/html
 	@scripts/setup --docs
