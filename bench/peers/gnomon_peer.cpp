@@ -42,7 +42,7 @@ Result<std::unique_ptr<Stage>> make_stage(Result<gpu::Device> device, const scen
     if (const Status uploaded = stage->renderer->upload(scene); !uploaded)
         return forward_error(uploaded);
     for (auto* system : {&stage->with_shadows, &stage->without_shadows}) {
-        auto made = shadows::ShadowSystem::create();
+        auto made = shadows::ShadowSystem::create({.receivers = shadows::Receivers::Submitted});
         if (!made) return forward_error(made);
         *system = std::move(*made);
     }

@@ -36,6 +36,7 @@ public:
         for (const DrawnPair& drawn : pairs_) append(drawn, layers_of(drawn));
         return most_layers(footprints_);
     }
+    void refine_coarsely();
     void refine();
     /// Replaces volumes of more layers by their parts, and puts draws into an order in which
     /// neighbours seldom cover each other.
@@ -71,6 +72,17 @@ private:
     std::vector<Sorted> sorted_;
     std::vector<Footprint> footprints_;
 };
+
+void Batching::refine_coarsely() {
+    for (const DrawnPair& drawn : pairs_) {
+        const PairState& pair = light_.pairs[drawn.slot];
+        std::uint32_t& layers = layers_of(drawn);
+        if (pair.is(PairFlag::Bounded) || layers <= 1) continue;
+        const std::uint32_t coarse = coarse_layer_bound(*drawn.caster->mesh, *drawn.volume,
+                                                        space_of(pair, *drawn.caster, light_));
+        layers = std::min(layers, coarse);
+    }
+}
 
 void Batching::refine() {
     for (const DrawnPair& drawn : pairs_) {
@@ -154,6 +166,8 @@ std::uint32_t split_into_batches(LightState& light, std::uint32_t limit,
     memory = {std::move(revisions), 1};
     light.pieces.clear();
     Batching batching(light, pairs);
+    if (batching.most_together() <= limit) return 1;
+    batching.refine_coarsely();
     if (batching.most_together() <= limit) return 1;
     batching.refine();
     if (batching.most_together() <= limit) return 1;

@@ -141,6 +141,75 @@ std::optional<std::int64_t> bound_in_one_picture(const Placement& placement,
 }
 
 // ---------------------------------------------------------------------------------------------
+// A sheaf of lines across one picture, in two directions: a line that passes a point which the
+// boundary winds round n times crosses it 2 n times or more. Lines are binned; all that may cross
+// any line of a bin counts.
+
+class Sheaf {
+public:
+    Sheaf(double low, double high) : low_(low), scale_(bins / (high - low)) {}
+
+    // What a line at `a` or at `b` is next to may be in its place: rounding is far below that.
+    void add_edge(double a, double b) {
+        const auto bin = [&](double x) {
+            return std::clamp(static_cast<int>((x - low_) * scale_), 0, bins - 1);
+        };
+        const double room = 1e-3 / scale_;
+        starts_[static_cast<std::size_t>(bin(std::min(a, b) - room))] += 1;
+        starts_[static_cast<std::size_t>(bin(std::max(a, b) + room)) + 1] -= 1;
+    }
+    [[nodiscard]] std::int64_t most_crossings() const {
+        std::int64_t most = 0;
+        std::int64_t now = 0;
+        for (const std::int32_t change : starts_) most = std::max(most, now += change);
+        return most;
+    }
+    [[nodiscard]] double room() const { return 1e-3 / scale_; }
+
+private:
+    static constexpr int bins = 256;
+    double low_;
+    double scale_;
+    std::array<std::int32_t, bins + 1> starts_{};
+};
+
+std::optional<std::int64_t> bound_by_sheaves(const Placement& placement, const IndexRange& sides,
+                                             std::span<const std::uint32_t> indices,
+                                             const Axes& axes) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high(-low);
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto project = [&](const glm::dvec3& d) {
+        const glm::dvec2 p(glm::dot(d, axes.right), glm::dot(d, axes.up));
+        return placement.directional() ? p : p / glm::dot(d, axes.forward);
+    };
+    for (const glm::dvec3& corner : placement.corners()) {
+        const glm::dvec2 p = project(corner);
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+        nearest = std::min(nearest, glm::dot(corner, axes.forward));
+    }
+    Sheaf upright(low.x, high.x);
+    Sheaf level(low.y, high.y);
+    const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x),
+                                     std::abs(high.y), placement.directional() ? 0.0 : 1.0});
+    const double error =
+        16.0 * half_ulp * largest +
+        2.0 * placement.error() * (placement.directional() ? 1.0 : (1.0 + largest) / nearest);
+    if (!(2.0 * error <= std::min(upright.room(), level.room()))) return std::nullopt;
+    for (std::uint32_t i = sides.first; i < sides.first + sides.count; i += 3) {
+        const std::uint32_t to = indices[i];
+        const std::uint32_t from = indices[i + 1];
+        if (to % 2 != 0 || from % 2 != 0) continue;
+        const glm::dvec2 a = project(placement(from / 2));
+        const glm::dvec2 b = project(placement(to / 2));
+        upright.add_edge(a.x, b.x);
+        level.add_edge(a.y, b.y);
+    }
+    return std::min(upright.most_crossings(), level.most_crossings()) / 2;
+}
+
+// ---------------------------------------------------------------------------------------------
 // A light among the faces: six pictures, the sides of a cube about it. Each begins at a corner of
 // the cube, where the layers are counted face by face; all six share two corners.
 
@@ -312,6 +381,26 @@ std::uint32_t quick_layer_bound(const Volume& volume, bool from_outside) {
     return internal::quick_bound(volume.cap_faces(),
                                  volume.sides.count / (volume.made_with.one_far_point() ? 3 : 6),
                                  from_outside);
+}
+
+std::uint32_t coarse_layer_bound(const ShadowMesh& mesh, const Volume& volume,
+                                 const LayerSpace& space) {
+    const std::uint32_t quick = quick_layer_bound(volume, seen_from_outside(mesh, space));
+    const Placement placement(mesh, space);
+    Axes axes = axes_along(-glm::dvec3(space.light));
+    if (!placement.directional()) {
+        glm::dvec3 center(0.0);
+        const auto corners = placement.corners();
+        for (const glm::dvec3& corner : corners) center += corner * 0.125;
+        axes = axes_along(center);
+        const bool before = std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& d) {
+            return glm::dot(d, axes.forward) > 0.15 * glm::length(d);
+        });
+        if (!before) return quick;
+    }
+    const auto found = bound_by_sheaves(placement, volume.sides, volume.indices, axes);
+    if (!found) return quick;
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(*found, quick));
 }
 
 std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume, const LayerSpace& space) {

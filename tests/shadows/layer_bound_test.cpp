@@ -143,6 +143,9 @@ TEST(LayerBound, IsNeverBelowTheTruth) {
         const std::uint32_t quick = quick_layer_bound(c.volume, from_outside);
         ASSERT_GE(bound, truth) << "mesh " << i;
         ASSERT_GE(quick, bound) << "mesh " << i;
+        const std::uint32_t coarse = coarse_layer_bound(*mesh, c.volume, c.space);
+        ASSERT_GE(coarse, truth) << "mesh " << i;
+        ASSERT_GE(quick, coarse) << "mesh " << i;
         (from_outside ? outside : inside) += 1;
         deep += truth > 4 ? 1 : 0;
         slack += bound - truth;
@@ -167,6 +170,7 @@ TEST(LayerBound, IsNeverBelowTheTruthUnderSingularPoses) {
         build_case_volume(c, FarVertices::AtInfinity);
         const std::uint32_t truth = most_faces(random, c, 40);
         ASSERT_GE(layer_bound(*c.mesh, c.volume, c.space), truth) << "mesh " << i;
+        ASSERT_GE(coarse_layer_bound(*c.mesh, c.volume, c.space), truth) << "mesh " << i;
         deep += truth > 4 ? 1 : 0;
     }
     EXPECT_GT(deep, 100);
@@ -188,6 +192,8 @@ TEST(LayerBound, IsExactOnNestedShells) {
         for (const int count : {1, 2, 100, 127, 128, 255, 256, 300}) {
             const Case c = make_case(test::build(shells(count, 0.01F)), {light});
             EXPECT_GE(layer_bound(*c.mesh, c.volume, c.space), count);
+            EXPECT_GE(coarse_layer_bound(*c.mesh, c.volume, c.space), count);
+            EXPECT_LE(coarse_layer_bound(*c.mesh, c.volume, c.space), 2 * count + 1);
             EXPECT_LE(layer_bound(*c.mesh, c.volume, c.space), count + 1);
         }
     }
