@@ -142,6 +142,11 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
             "point:x,y,z[,range=R] or dir:x,y,z (the way it travels); repeatable")
         ->type_name("LIGHT")
         ->allow_extra_args(false);
+    render
+        ->add_option("--max-shadowed-lights", o.max_shadowed_lights,
+                     "At most this many lights cast shadows: those that bring most to what the "
+                     "camera looks at. The others shine through everything")
+        ->check(CLI::Range(0, 1000000));
     render->add_option("--casters", o.casters, "Only nodes whose name matches cast")
         ->type_name("GLOB");
     render->add_option("--receivers", o.receivers, "Only nodes whose name matches are drawn")

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <gnomon/render/camera.hpp>
+#include <gnomon/render/light_choice.hpp>
 #include <gnomon/render/renderer.hpp>
 #include <gnomon/scene/shadow_adapter.hpp>
 
@@ -65,6 +66,7 @@ private:
     std::optional<Animator> animator_;
     RunRecord record_;
     std::vector<Mask> masks_;
+    std::optional<scene::Bounds> bounds_;  // of the scene as it first was
 };
 
 Status Run::start() {
@@ -110,16 +112,23 @@ Status Run::frame(std::uint32_t index, bool last) {
     const gpu::DeviceCounters before = device_.counters();
     FrameRecord record;
 
+    const double aspect = static_cast<double>(options_.size.width) / options_.size.height;
+    const shadows::View view =
+        render::make_view(shot_.camera, shot_.world_from_camera, aspect, shot_.near_m);
+    std::vector<scene::Entity> unshadowed;
+    if (options_.max_shadowed_lights) {
+        if (!bounds_) bounds_ = scene::world_bounds(shot_.scene);
+        unshadowed = render::choose_shadowed_lights(shot_.scene, *bounds_, view,
+                                                    *options_.max_shadowed_lights)
+                         .unshadowed;
+    }
     auto frame = system_.begin_frame();
     const Status submitted =
-        adapter_.submit(shot_.scene, frame, options_.cull_back, options_.near_caps);
+        adapter_.submit(shot_.scene, frame, options_.cull_back, options_.near_caps, unshadowed);
     if (!submitted) {
         return fail(submitted.error().code,
                     fmt::format("{}: {}", options_.scene, submitted.error().message));
     }
-    const double aspect = static_cast<double>(options_.size.width) / options_.size.height;
-    const shadows::View view =
-        render::make_view(shot_.camera, shot_.world_from_camera, aspect, shot_.near_m);
     const shadows::DrawList& list = std::move(frame).finish(view);
 
     double read_back_ms = 0.0;
@@ -139,7 +148,7 @@ Status Run::frame(std::uint32_t index, bool last) {
             return read;
         };
     }
-    const render::FrameInput input{shot_.scene, view, list, after_light};
+    const render::FrameInput input{shot_.scene, view, list, after_light, unshadowed};
     if (const Status rendered = renderer_->render(input); !rendered) return rendered;
     const auto waiting = Clock::now();
     if (const Status idle = device_.wait_idle(); !idle) return idle;

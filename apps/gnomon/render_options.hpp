@@ -34,6 +34,7 @@ struct RenderOptions {
     glm::dvec3 up{0.0, 1.0, 0.0};
     std::optional<double> fovy_deg = std::nullopt;
     std::vector<LightArgument> lights = {};
+    std::optional<std::uint32_t> max_shadowed_lights = std::nullopt;
     std::optional<std::string> casters = std::nullopt;    ///< glob; none: all
     std::optional<std::string> receivers = std::nullopt;  ///< glob; none: all
     bool cull_back = false;

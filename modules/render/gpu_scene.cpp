@@ -124,16 +124,10 @@ Status GpuScene::upload_mesh(const std::shared_ptr<const scene::Mesh>& mesh) {
 Status GpuScene::write_vertices(GpuVertices& vertices, const scene::Mesh& mesh,
                                 const scene::Geometry& geometry) {
     std::vector<Attributes> attributes(geometry.positions.size());
-    glm::dvec3 low(geometry.positions[0]);
-    glm::dvec3 high = low;
     for (std::size_t i = 0; i < attributes.size(); ++i) {
         attributes[i] = {geometry.normals[i],
                          mesh.texcoords.empty() ? glm::vec2(0.0F) : mesh.texcoords[i]};
-        low = glm::min(low, glm::dvec3(geometry.positions[i]));
-        high = glm::max(high, glm::dvec3(geometry.positions[i]));
     }
-    vertices.center = (low + high) * 0.5;
-    vertices.radius = glm::length(high - low) * 0.5;
     const auto write = [&](gpu::Buffer& buffer, const char* label,
                            std::span<const std::byte> bytes) -> Status {
         if (buffer) return device_->write_buffer(buffer, 0, bytes);
@@ -222,10 +216,12 @@ Result<gpu::TextureId> GpuScene::texture_of(const std::shared_ptr<const scene::I
 
 Status GpuScene::upload_materials(const std::vector<scene::Material>& materials) {
     materials_.clear();
+    has_holes_.clear();
     if (materials.empty()) return {};
     std::vector<std::byte> bytes(materials.size() * material_stride);
     for (std::size_t i = 0; i < materials.size(); ++i) {
         const scene::Material& m = materials[i];
+        has_holes_.push_back(m.alpha_mode == scene::AlphaMode::Mask);
         const float cutoff = m.alpha_mode == scene::AlphaMode::Mask ? m.alpha_cutoff : -1.0F;
         const MaterialUniforms u{m.base_color, glm::vec4(m.emissive, 0.0F),
                                  glm::vec4(m.metallic, m.roughness, cutoff, 0.0F)};

@@ -22,8 +22,10 @@ class Maker {
 public:
     Maker(gpu::Device& device, const RendererDesc& desc) : device_(&device), desc_(desc) {}
 
-    void layout(const char* label, gpu::BindGroupLayoutEntry entry, gpu::BindGroupLayout& out) {
-        keep(device_->create_bind_group_layout({.label = label, .entries = {entry}}), out);
+    void layout(const char* label, std::vector<gpu::BindGroupLayoutEntry> entries,
+                gpu::BindGroupLayout& out) {
+        keep(device_->create_bind_group_layout({.label = label, .entries = std::move(entries)}),
+             out);
     }
     void shader(const char* label, gpu::ShaderStage stage, const gpu::ShaderSource& source,
                 gpu::Shader& out) {
@@ -60,85 +62,122 @@ gpu::PrimitiveState culling(Culling kind) {
             .cull_mode = kind == Culling::None ? gpu::CullMode::None : gpu::CullMode::Back};
 }
 
-}  // namespace
+// What a geometry pipeline draws with, whichever triangles it leaves out.
+void make_each(Maker& make, gpu::Device& device, const RendererDesc& desc,
+               gpu::RenderPipelineDesc pipeline, GeometryPipelines& out) {
+    for (const Culling kind : {Culling::None, Culling::Back, Culling::BackMirrored}) {
+        if ((kind == Culling::None) == desc.cull_back_faces) continue;
+        const auto place = static_cast<std::size_t>(kind);
+        pipeline.primitive = culling(kind);
+        make.pipeline(pipeline, out.clipped[place]);
+        if (!device.caps().features.unclipped_depth) continue;
+        pipeline.primitive.unclipped_depth = true;
+        make.pipeline(pipeline, out.unclipped[place]);
+    }
+}
 
-Result<Pipelines> create_pipelines(gpu::Device& device, const RendererDesc& desc,
-                                   gpu::BindGroupLayoutId material_layout,
-                                   const shadow_pass::ShadowPass& shadows) {
+void make_geometry(Maker& make, gpu::Device& device, const RendererDesc& desc,
+                   gpu::BindGroupLayoutId material_layout, Pipelines& p) {
     using gpu::ShaderStage;
-    Pipelines p;
-    Maker make(device, desc);
-    make.layout("draw",
-                {.binding = 1, .visibility = ShaderStage::Vertex, .has_dynamic_offset = true},
-                p.draw_layout);
-    make.layout("frame",
-                {.binding = 0, .visibility = ShaderStage::Fragment, .has_dynamic_offset = true},
-                p.frame_layout);
-    make.layout("overlay",
-                {.binding = 4, .visibility = ShaderStage::Fragment, .has_dynamic_offset = true},
-                p.overlay_layout);
-    make.layout("tone map",
-                {.binding = 0,
-                 .visibility = ShaderStage::Fragment,
-                 .type = gpu::BindingType::SampledTexture},
-                p.tone_map_layout);
-
+    const bool multisampled = desc.sample_count > 1;
     gpu::Shader geometry;
-    gpu::Shader wireframe;
-    gpu::Shader ambient;
-    gpu::Shader light;
-    gpu::Shader overlay;
-    gpu::Shader full_screen;
-    gpu::Shader tone_map;
+    gpu::Shader positions;
+    gpu::Shader depth;
+    gpu::Shader forward;
+    gpu::Shader fragment_depth;
     make.shader("geometry", ShaderStage::Vertex, shaders::geometry_vert, geometry);
-    make.shader("wireframe", ShaderStage::Vertex, shaders::wireframe_vert, wireframe);
-    make.shader("ambient", ShaderStage::Fragment, shaders::ambient_frag, ambient);
-    make.shader("light", ShaderStage::Fragment, shaders::light_frag, light);
-    make.shader("overlay", ShaderStage::Fragment, shaders::overlay_frag, overlay);
-    make.shader("full screen", ShaderStage::Vertex, shaders::full_screen_vert, full_screen);
-    make.shader("tone map", ShaderStage::Fragment, shaders::tone_map_frag, tone_map);
-    if (!make.status()) return forward_error(make.status());
+    make.shader("positions", ShaderStage::Vertex, shaders::positions_vert, positions);
+    make.shader("depth", ShaderStage::Fragment,
+                multisampled ? shaders::depth_multisampled_frag : shaders::depth_frag, depth);
+    make.shader("forward", ShaderStage::Fragment,
+                multisampled ? shaders::forward_multisampled_frag : shaders::forward_frag, forward);
+    if (multisampled) {
+        make.shader("fragment depth", ShaderStage::Fragment, shaders::fragment_depth_frag,
+                    fragment_depth);
+    }
 
+    const gpu::VertexBufferLayout position_layout{.array_stride = 12,
+                                                  .attributes = {{.shader_location = 0}}};
     gpu::RenderPipelineDesc d;
     d.sample_count = desc.sample_count;
+    d.label = "depth of what is opaque";
+    d.bind_group_layouts = {p.draw_layout};
+    d.vertex = positions;
+    d.vertex_buffers = {position_layout};
+    d.depth_stencil = make.depth(Compare::Greater, true);
+    if (multisampled) {
+        d.fragment = fragment_depth;
+        d.targets = {{.format = fragment_depth_format}};
+    }
+    make_each(make, device, desc, d, p.depth_of_opaque);
+
+    d.label = "depth";
+    d.bind_group_layouts = {p.draw_layout, p.round_layout, material_layout};
     d.vertex = geometry;
     d.vertex_buffers = {
-        {.array_stride = 12, .attributes = {{.shader_location = 0}}},
+        position_layout,
         {.array_stride = 20,
          .attributes = {
              {.shader_location = 1},
              {.format = gpu::VertexFormat::Float32x2, .offset = 12, .shader_location = 2}}}};
-    d.bind_group_layouts = {p.draw_layout, p.frame_layout, material_layout};
-    for (std::size_t i = 0; i < 6; ++i) {
-        const auto kind = static_cast<Culling>(i % 3);
-        const bool unclipped = i >= 3;
-        if (unclipped && !device.caps().features.unclipped_depth) continue;
-        const auto place = [&](GeometryPipelines& pipelines) -> gpu::RenderPipeline& {
-            return (unclipped ? pipelines.unclipped : pipelines.clipped)[i % 3];
-        };
-        d.primitive = culling(kind);
-        d.primitive.unclipped_depth = unclipped;
+    d.fragment = depth;
+    make_each(make, device, desc, d, p.depth);
 
-        d.label = "ambient";
-        d.fragment = ambient;
-        d.depth_stencil = make.depth(Compare::Greater, true);
-        d.targets = {{.format = radiance_format}};
-        make.pipeline(d, place(p.ambient));
+    d.bind_group_layouts = {p.draw_layout, p.round_layout, material_layout, p.mask_layout};
+    d.depth_stencil = make.depth(Compare::Equal);
+    d.label = "forward";
+    d.fragment = forward;
+    d.targets = {{.format = radiance_format}};
+    make_each(make, device, desc, d, p.forward[0]);
+    d.label = "forward, later rounds";
+    d.targets[0].blend = add_blend;
+    make_each(make, device, desc, d, p.forward[1]);
+}
 
-        d.label = "light";
-        d.fragment = light;
-        d.depth_stencil = make.depth(Compare::Equal);
-        d.depth_stencil->stencil_front.compare =
-            Compare::Equal;  // lit where no volume covers the surface
-        d.depth_stencil->stencil_back.compare = Compare::Equal;
-        d.targets = {{.format = radiance_format, .blend = add_blend}};
-        make.pipeline(d, place(p.light));
-    }
+void make_masks(Maker& make, const RendererDesc& desc, Pipelines& p) {
+    using gpu::ShaderStage;
+    gpu::Shader full_screen;
+    gpu::Shader bit;
+    make.shader("full screen", ShaderStage::Vertex, shaders::full_screen_vert, full_screen);
+    make.shader("light mask", ShaderStage::Fragment, shaders::light_mask_frag, bit);
+    gpu::RenderPipelineDesc d;
+    d.sample_count = desc.sample_count;
+    d.vertex = full_screen;
+    d.fragment = bit;
+    const gpu::BlendComponent add_constant{.src_factor = BlendFactor::Constant,
+                                           .dst_factor = BlendFactor::One};
+    d.targets = {{.format = mask_format,
+                  .blend = gpu::BlendState{.color = add_constant, .alpha = add_constant}}};
+    gpu::StencilFaceState face{.compare = Compare::NotEqual};
+    const auto stencil = [&](gpu::StencilOp op) {
+        face.pass_op = op;
+        d.depth_stencil = make.depth(Compare::Always);
+        d.depth_stencil->stencil_front = face;
+        d.depth_stencil->stencil_back = face;
+    };
+    d.label = "light mask";
+    stencil(gpu::StencilOp::Zero);
+    make.pipeline(d, p.mask);
+    d.label = "light mask, the count kept";
+    stencil(gpu::StencilOp::Keep);
+    make.pipeline(d, p.mask_kept);
+}
 
-    d.fragment = overlay;
+void make_overlays(Maker& make, const RendererDesc& desc, const shadow_pass::ShadowPass& shadows,
+                   Pipelines& p) {
+    using gpu::ShaderStage;
+    gpu::Shader positions;
+    gpu::Shader color;
+    gpu::Shader full_screen;
+    make.shader("positions", ShaderStage::Vertex, shaders::positions_vert, positions);
+    make.shader("overlay", ShaderStage::Fragment, shaders::overlay_frag, color);
+    make.shader("full screen", ShaderStage::Vertex, shaders::full_screen_vert, full_screen);
+    gpu::RenderPipelineDesc d;
+    d.sample_count = desc.sample_count;
+    d.fragment = color;
     d.targets = {{.format = radiance_format, .blend = over_blend}};
     d.label = "wireframe";
-    d.vertex = wireframe;
+    d.vertex = positions;
     d.vertex_buffers = {{.array_stride = 12, .attributes = {{.shader_location = 0}}}};
     d.primitive = {.topology = gpu::PrimitiveTopology::LineList};
     d.bind_group_layouts = {p.draw_layout, p.overlay_layout};
@@ -167,14 +206,55 @@ Result<Pipelines> create_pipelines(gpu::Device& device, const RendererDesc& desc
         d.depth_stencil->stencil_read_mask = 0xFFU << band & 0xFFU;
         make.pipeline(d, p.fill[band]);
     }
+}
 
-    d.label = "tone map";
-    d.fragment = tone_map;
-    d.bind_group_layouts = {p.tone_map_layout};
-    d.depth_stencil.reset();
-    d.targets = {{.format = picture_format}};
-    d.sample_count = 1;
-    make.pipeline(d, p.tone_map);
+}  // namespace
+
+Result<Pipelines> create_pipelines(gpu::Device& device, const RendererDesc& desc,
+                                   gpu::BindGroupLayoutId material_layout,
+                                   const shadow_pass::ShadowPass& shadows) {
+    using gpu::ShaderStage;
+    Pipelines p;
+    Maker make(device, desc);
+    const bool multisampled = desc.sample_count > 1;
+    make.layout("draw",
+                {{.binding = 1, .visibility = ShaderStage::Vertex, .has_dynamic_offset = true}},
+                p.draw_layout);
+    make.layout("round",
+                {{.binding = 0, .visibility = ShaderStage::Fragment, .has_dynamic_offset = true}},
+                p.round_layout);
+    make.layout("overlay",
+                {{.binding = 4, .visibility = ShaderStage::Fragment, .has_dynamic_offset = true}},
+                p.overlay_layout);
+    gpu::BindGroupLayoutEntry mask{.binding = 5,
+                                   .visibility = ShaderStage::Fragment,
+                                   .type = gpu::BindingType::SampledTexture,
+                                   .multisampled = multisampled};
+    std::vector<gpu::BindGroupLayoutEntry> masks{mask};
+    if (multisampled) {
+        mask.binding = 6;
+        masks.push_back(mask);
+    }
+    make.layout("light mask", masks, p.mask_layout);
+    make.layout("tone map",
+                {{.binding = 0,
+                  .visibility = ShaderStage::Fragment,
+                  .type = gpu::BindingType::SampledTexture}},
+                p.tone_map_layout);
+    make_geometry(make, device, desc, material_layout, p);
+    make_masks(make, desc, p);
+    make_overlays(make, desc, shadows, p);
+
+    gpu::Shader full_screen;
+    gpu::Shader tone_map;
+    make.shader("full screen", ShaderStage::Vertex, shaders::full_screen_vert, full_screen);
+    make.shader("tone map", ShaderStage::Fragment, shaders::tone_map_frag, tone_map);
+    make.pipeline({.label = "tone map",
+                   .bind_group_layouts = {p.tone_map_layout},
+                   .vertex = full_screen,
+                   .fragment = tone_map,
+                   .targets = {{.format = picture_format}}},
+                  p.tone_map);
     if (!make.status()) return forward_error(make.status());
     return p;
 }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Renderer: the small renderer that gnomon's own apps share. Depth and ambient first; then, light
-// by light, the volumes are counted into the stencil and the light is added where the count is
-// zero. A decent material, any number of lights, debug views of everything the shadows are made of.
-// It is not an engine; embedders use gnomon::shadow_pass.
+// Renderer: the small renderer that gnomon's own apps share. Depth first; then, light by light, the
+// volumes are counted into the stencil, and where the count is not zero the light loses its bit in
+// a mask; then the scene is drawn once more, lit by all lights at once (once more for every eight).
+// A decent material, any number of lights, debug views of everything the shadows are made of. It is
+// not an engine; embedders use gnomon::shadow_pass.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <gnomon/core/result.hpp>
@@ -61,7 +63,11 @@ struct FrameInput {
     const shadows::DrawList& shadows;
     /// Called after each light's stencil count is complete (the device has been given the work):
     /// what may be read then is depth_stencil(). The light is named by its place in shadows.lights.
+    /// In order; without it, lights whose range the view does not reach are left out.
     std::function<Status(std::size_t light)> after_light = {};
+    /// Lights that are not in `shadows` and shine all the same, through everything
+    /// (choose_shadowed_lights()).
+    std::span<const scene::Entity> unshadowed = {};
 };
 
 /// Of the last render(), on the CPU.
@@ -85,14 +91,15 @@ public:
     /// One frame, submitted; does not wait for the device.
     [[nodiscard]] Status render(const FrameInput& frame);
 
-    /// Stencil fragments of the last render(), one entry a light, in the order of its draw list:
-    /// shadow_pass::count_fill(). Blocks until the device has counted; the picture and the stencil
-    /// stay as they are. Needs RendererDesc::meter_fill.
+    /// Stencil fragments of the last render(), one entry a light, in the order of its draw list; 0
+    /// for what was left out. As shadow_pass::count_fill() counts. Blocks until the device has
+    /// counted; the picture and the stencil stay as they are. Needs RendererDesc::meter_fill.
     [[nodiscard]] Result<std::vector<shadow_pass::LightFill>> measure_fill();
 
     /// The finished picture: Rgba8Unorm, already sRGB-encoded.
     [[nodiscard]] gpu::TextureId picture() const;
-    /// The depth-stencil buffer; its stencil holds the last light's count.
+    /// The depth-stencil buffer; its stencil holds the count of the last light of
+    /// FrameInput::shadows, 0 where that was left out.
     [[nodiscard]] gpu::TextureId depth_stencil() const;
     [[nodiscard]] const shadow_pass::PassStats& shadow_stats() const;
     [[nodiscard]] FrameTimes times() const;
@@ -104,8 +111,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// One byte a pixel and sample, row 0 on top: the stencil of the last light. Sample 0 where there
-/// is only one.
+/// One byte a pixel and sample, row 0 on top: the stencil of depth_stencil(), as it is then. Sample
+/// 0 where there is only one.
 [[nodiscard]] Result<std::vector<std::byte>> read_stencil(gpu::Device& device,
                                                           const Renderer& renderer,
                                                           std::uint32_t sample = 0);

@@ -33,6 +33,12 @@ Result<Targets> create_targets(gpu::Device& device, const RendererDesc& desc) {
     create("depth-stencil", desc.depth_stencil_format, desc.sample_count,
            multisampled ? TextureUsage::TextureBinding : TextureUsage::CopySrc,
            targets.depth_stencil);
+    if (multisampled) {
+        create("fragment depth", fragment_depth_format, desc.sample_count,
+               TextureUsage::TextureBinding, targets.fragment_depth);
+    }
+    create("light mask", mask_format, desc.sample_count, TextureUsage::TextureBinding,
+           targets.mask);
     create("picture", picture_format, 1, TextureUsage::CopySrc, targets.picture);
     if (!status) return forward_error(status);
     return targets;

@@ -137,12 +137,13 @@ void ShadowAdapter::submit_receivers(const Scene& scene, shadows::ShadowSystem::
 }
 
 Status ShadowAdapter::submit(const Scene& scene, shadows::ShadowSystem::Frame& frame, bool culled,
-                             shadows::NearCaps near_caps) {
+                             shadows::NearCaps near_caps, std::span<const Entity> without_shadow) {
     const auto casters = this->casters(scene, culled, near_caps);
     if (!casters) return forward_error(casters);
     for (const shadows::Caster& caster : *casters) frame.caster(caster);
     if (frame.takes_receivers()) submit_receivers(scene, frame);
     const auto submit_light = [&](Entity entity, const auto&) {
+        if (std::ranges::find(without_shadow, entity) != without_shadow.end()) return;
         if (const auto light = shadow_light(scene.registry, entity)) frame.light(*light);
     };
     scene.registry.each<PointLight>(submit_light);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -20,16 +21,17 @@ namespace gnomon::scene {
 
 class ShadowAdapter {
 public:
-    /// Submits every Caster and every light, and where the system takes receivers every Receiver.
-    /// Shadow meshes are made the first time a mesh is met
-    /// and kept while it lives; those of deformed instances, from the very positions that are
-    /// drawn, whenever Deformed::revision changes. `culled`: back faces are not drawn, so
-    /// depth-pass needs caps. `near_caps` is for casters that are drawn whole; what is hidden or
-    /// alpha-tested may have something to be seen inside and keeps its caps towards the light.
-    /// Fails when a mesh is not acceptable to ShadowMesh::build. Cost: a look-up a caster.
+    /// Submits every Caster, every light but those of `without_shadow`, and where the system takes
+    /// receivers every Receiver. Shadow meshes are made the first time a mesh is met and kept while
+    /// it lives; those of deformed instances, from the very positions that are drawn, whenever
+    /// Deformed::revision changes. `culled`: back faces are not drawn, so depth-pass needs caps.
+    /// `near_caps` is for casters that are drawn whole; what is hidden or alpha-tested may have
+    /// something to be seen inside and keeps its caps towards the light. Fails when a mesh is not
+    /// acceptable to ShadowMesh::build. Cost: a look-up a caster and a receiver.
     [[nodiscard]] Status submit(const Scene& scene, shadows::ShadowSystem::Frame& frame,
                                 bool culled = false,
-                                shadows::NearCaps near_caps = shadows::NearCaps::Facing);
+                                shadows::NearCaps near_caps = shadows::NearCaps::Facing,
+                                std::span<const Entity> without_shadow = {});
 
     /// The casters alone, as submit() submits them: for ShadowQueries. Fails and costs as that
     /// does.

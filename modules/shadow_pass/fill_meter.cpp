@@ -7,19 +7,20 @@
 namespace gnomon::shadow_pass {
 
 Result<std::vector<LightFill>> count_fill(gpu::Device& device, const ShadowPass& pass,
-                                          gpu::RenderPassDesc target, std::size_t lights) {
+                                          gpu::RenderPassDesc target,
+                                          std::span<const std::size_t> lights) {
     if (!device.caps().features.occlusion_query) {
         return fail(ErrorCode::Unsupported, "Stencil fragments cannot be counted: the adapter " +
                                                 device.caps().adapter +
                                                 " lacks exact occlusion queries.");
     }
-    std::vector<LightFill> result(lights);
-    if (lights == 0) return result;
+    std::vector<LightFill> result(lights.size());
+    if (lights.empty()) return result;
     constexpr std::array<Fill, 2> kinds{Fill::Rasterised, Fill::Counted};
-    auto queries =
-        device.create_query_set({.label = "stencil fragments",
-                                 .type = gpu::QueryType::Occlusion,
-                                 .count = static_cast<std::uint32_t>(kinds.size() * lights)});
+    auto queries = device.create_query_set(
+        {.label = "stencil fragments",
+         .type = gpu::QueryType::Occlusion,
+         .count = static_cast<std::uint32_t>(kinds.size() * lights.size())});
     if (!queries) return forward_error(queries);
     target.label = "fill meter";
     target.occlusion_query_set = *queries;
@@ -35,9 +36,9 @@ Result<std::vector<LightFill>> count_fill(gpu::Device& device, const ShadowPass&
     auto encoder = device.create_command_encoder("fill meter");
     {
         auto recorder = encoder.begin_render_pass(std::move(target));
-        for (std::size_t i = 0; i < kinds.size() * lights; ++i) {
+        for (std::size_t i = 0; i < kinds.size() * lights.size(); ++i) {
             recorder.begin_occlusion_query(static_cast<std::uint32_t>(i));
-            pass.record_fill(recorder, i / kinds.size(), kinds[i % kinds.size()]);
+            pass.record_fill(recorder, lights[i / kinds.size()], kinds[i % kinds.size()]);
             recorder.end_occlusion_query();
         }
     }
@@ -48,7 +49,7 @@ Result<std::vector<LightFill>> count_fill(gpu::Device& device, const ShadowPass&
     }
     const auto samples = device.read_query_set(*queries);
     if (!samples) return forward_error(samples);
-    for (std::size_t i = 0; i < lights; ++i) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
         result[i] = {(*samples)[kinds.size() * i], (*samples)[kinds.size() * i + 1]};
     }
     return result;

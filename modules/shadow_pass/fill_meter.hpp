@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <gnomon/core/result.hpp>
@@ -21,14 +22,14 @@ struct LightFill {
     std::uint64_t counted = 0;     ///< Fill::Counted
 };
 
-/// Counts the volumes of the pass's last prepare(), of the first `lights` lights of its list, one
-/// entry a light, against the depth that `target` has. `target`: attachments as the pass was made
-/// for (ShadowPassDesc), which are loaded, kept and not changed; load and store operations and
-/// queries are set here. Blocks until the device has counted. Fails with ErrorCode::Unsupported
-/// where the adapter lacks exact occlusion queries, and as the device does. Needs
-/// ShadowPassDesc::meter.
+/// Counts the volumes of the pass's last prepare(), of those lights of its list that `lights` names
+/// by their places, one entry each, against the depth that `target` has. `target`: attachments as
+/// the pass was made for (ShadowPassDesc), which are loaded, kept and not changed; load and store
+/// operations and queries are set here. Blocks until the device has counted. Fails with
+/// ErrorCode::Unsupported where the adapter lacks exact occlusion queries, and as the device does.
+/// Needs ShadowPassDesc::meter.
 [[nodiscard]] Result<std::vector<LightFill>> count_fill(gpu::Device& device, const ShadowPass& pass,
                                                         gpu::RenderPassDesc target,
-                                                        std::size_t lights);
+                                                        std::span<const std::size_t> lights);
 
 }  // namespace gnomon::shadow_pass

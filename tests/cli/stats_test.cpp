@@ -151,6 +151,18 @@ TEST_F(Stats, fragments_are_counted_where_the_backend_can_and_when_asked) {
     expect_refused(render("builtin:knot", {"--meter"}), {"--meter", "--stats"});
 }
 
+TEST_F(Stats, at_most_so_many_lights_cast_shadows) {
+    const Arguments plain{"--backend", "null"};
+    for (const std::uint64_t most : {0U, 1U, 2U, 3U, 9U}) {
+        const auto stats = stats_of("builtin:still-life",
+                                    joined(plain, {"--max-shadowed-lights", std::to_string(most)}));
+        EXPECT_EQ(stats["lights"], std::min<std::uint64_t>(most, 3));
+        EXPECT_EQ(stats["frames"][0]["pairs"], 5 * std::min<std::uint64_t>(most, 3));
+    }
+    expect_refused(render("builtin:knot", {"--max-shadowed-lights", "-1"}),
+                   {"--max-shadowed-lights"});
+}
+
 TEST_F(Stats, casters_beyond_a_lights_range_are_culled) {
     const auto frame = stats_of("builtin:still-life", {"--backend", "null", "--light",
                                                        "point:0,100,0,range=1"})["frames"][0];

@@ -116,7 +116,7 @@ struct Method {
 
 double smooth_light(const Seen& s) { return std::max(s.smooth, 0.0); }
 double cut_light(const Seen& s) { return s.geometric > 0.0 ? smooth_light(s) : 0.0; }
-// As light.frag has it.
+// As forward.glsl has it.
 double faded_light(const Seen& s) {
     const double t = std::clamp(s.geometric / 0.12, 0.0, 1.0);
     return smooth_light(s) * t * t * (3.0 - 2.0 * t);

@@ -18,8 +18,6 @@ struct GpuVertices {
     gpu::Buffer positions;   // 3 floats, slot 0: a stream of their own, so that depth-only passes
                              // read nothing else
     gpu::Buffer attributes;  // normal and texcoord, 5 floats, slot 1
-    glm::dvec3 center{0.0};
-    double radius = 0.0;
 };
 
 struct GpuMesh {
@@ -45,6 +43,8 @@ public:
     [[nodiscard]] GpuMesh* find(const scene::Mesh* mesh);
     [[nodiscard]] gpu::BindGroupLayoutId material_layout() const { return material_layout_; }
     [[nodiscard]] gpu::BindGroupId material(std::size_t index) const { return materials_[index]; }
+    /// Whether a fragment of the material may be left out.
+    [[nodiscard]] bool has_holes(std::size_t index) const { return has_holes_[index]; }
 
 private:
     Result<gpu::Buffer> create_buffer(const char* label, std::span<const std::byte> bytes,
@@ -61,6 +61,7 @@ private:
     gpu::Texture white_;
     gpu::Buffer material_uniforms_;
     std::vector<gpu::BindGroup> materials_;
+    std::vector<bool> has_holes_;  // by material
     std::unordered_map<const scene::Image*, gpu::Texture> textures_;
     std::unordered_map<const scene::Mesh*, GpuMesh> meshes_;
     struct DeformedVertices {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The lights of a frame as the shaders take them, with an exposure that suits them.
+// The lights of a frame as the shaders take them, with an exposure that suits them, in rounds of
+// eight.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,34 +18,44 @@
 
 namespace gnomon::render::internal {
 
-// std140, as in ambient.frag and light.frag.
-struct AmbientUniforms {
-    glm::vec4 sky;
-    glm::vec4 ground;
-    glm::vec4 up_view;
-    glm::vec4 depth_range;
-};
+/// As many as a light mask of eight bits tells apart.
+inline constexpr std::size_t lights_a_round = 8;
+
+// std140, as in frame.glsl.
 struct LightUniforms {
     glm::vec4 light_view;
     glm::vec4 color;
     glm::vec4 spot_axis;
     glm::vec4 spot_range;
+};
+struct RoundUniforms {
+    glm::vec4 sky;
+    glm::vec4 ground;
+    glm::vec4 up_view;
     glm::vec4 depth_range;
+    glm::uvec4 lit_by{0};
+    std::array<LightUniforms, lights_a_round> lights;
 };
 
 struct FrameLight {
     LightUniforms uniforms;
-    glm::dvec4 position_world{0.0};
-    double range_m = 0.0;  ///< 0: none
+    /// Its place in the draw list; none: it is lit without shadow.
+    std::optional<std::size_t> draws;
+    /// Whether it may light anything that the view shows.
+    bool in_view = true;
 };
 
-/// One per entry of `lights`, in their order. glTF's units go in (lux, candela); what comes out is
-/// scaled so that the strongest light on the scene exposes a white surface well.
+/// One per entry of `lights` and then of `unshadowed`, in their order. glTF's units go in (lux,
+/// candela); what comes out is scaled so that the strongest light on the scene exposes a white
+/// surface well.
 [[nodiscard]] std::vector<FrameLight> frame_lights(const scene::Scene& scene,
                                                    const scene::Bounds& bounds,
                                                    std::span<const shadows::LightDraws> lights,
+                                                   std::span<const scene::Entity> unshadowed,
                                                    const shadows::View& view);
 
-[[nodiscard]] AmbientUniforms ambient_uniforms(const shadows::View& view);
+/// Of `lights`, at most lights_a_round. `first`: what comes without a light is in it.
+[[nodiscard]] RoundUniforms round_uniforms(const shadows::View& view,
+                                           std::span<const FrameLight> lights, bool first);
 
 }  // namespace gnomon::render::internal

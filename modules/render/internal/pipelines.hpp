@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Every pipeline of the renderer, made once. Bind groups: 0 the draw (or the volume), 1 the frame,
-// light or overlay colour, 2 the material.
+// Every pipeline of the renderer, made once. Bind groups: 0 the draw (or the volume), 1 the round
+// of lights or the overlay colour, 2 the material, 3 the light mask.
 #pragma once
 
 #include <array>
@@ -32,11 +32,15 @@ struct GeometryPipelines {
 
 struct Pipelines {
     gpu::BindGroupLayout draw_layout;     // binding 1, dynamic
-    gpu::BindGroupLayout frame_layout;    // binding 0, dynamic
+    gpu::BindGroupLayout round_layout;    // binding 0, dynamic
     gpu::BindGroupLayout overlay_layout;  // binding 4, dynamic
+    gpu::BindGroupLayout mask_layout;     // binding 5; with several samples 6, whose each is
     gpu::BindGroupLayout tone_map_layout;
-    GeometryPipelines ambient;
-    GeometryPipelines light;
+    GeometryPipelines depth;                   // of what has holes, and where nothing is clipped
+    GeometryPipelines depth_of_opaque;         // reads positions alone
+    std::array<GeometryPipelines, 2> forward;  // the first round of lights, and later ones, added
+    gpu::RenderPipeline mask;                  // stencil to mask; the stencil is 0 afterwards
+    gpu::RenderPipeline mask_kept;             // the same, and the stencil stays
     gpu::RenderPipeline tone_map;
     gpu::RenderPipeline wireframe;
     gpu::RenderPipeline volume_triangles;

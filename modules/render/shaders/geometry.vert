@@ -1,4 +1,4 @@
-// The scene's geometry, for every pass that draws it: depth, ambient, one pass a light, wireframe. Shading happens in
+// The scene's geometry, for the passes that shade it, and for the depth of what has holes. Shading happens in
 // view space, so that it is as exact a million metres out as at the origin.
 #version 450
 #extension GL_GOOGLE_include_directive : require

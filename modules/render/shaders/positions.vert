@@ -1,4 +1,4 @@
-// The scene's triangles as lines: the same position, nothing else.
+// The scene's positions alone: for depth, and for its triangles as lines.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "position.glsl"
