@@ -59,10 +59,10 @@ struct DetectionStats {
 enum class Choice : std::uint8_t {
     ByName,           ///< the strategy that was asked for by name
     FewFaces,         ///< simd: there are so few faces that searching does not pay
-    LargeSilhouette,  ///< simd: the last searches looked at a large part of the edges anyway
+    LargeSilhouette,  ///< edges as in simd: a search meets a large part of them anyway
     Deforming,        ///< simd: no hierarchies are made for the places of one frame
-    Jump,       ///< dual_bvh: the light is new, or went so far that most certificates are void
-    SmallStep,  ///< certificates: the light is still near to where it was
+    Jump,             ///< as dual_bvh: the light is new, or goes too far for certificates to pay
+    SmallStep,        ///< certificates: the light is still near to where it was
 };
 inline constexpr std::size_t choice_count = 6;
 [[nodiscard]] std::string_view to_string(Choice choice);
@@ -124,8 +124,10 @@ struct SilhouetteStrategy {
 /// All strategies, by name; "auto" is not among them: it is the choice between them.
 [[nodiscard]] std::span<const SilhouetteStrategy> silhouette_strategies();
 /// "auto": simd, dual_bvh or certificates, whatever costs least for the mesh and for how far the
-/// light went. Its detector keeps state; without it (a new one for each call, or one for many
-/// pairs) it takes every light for a jump.
+/// light goes, by what they looked at so far; of simd and dual_bvh also one for the faces and the
+/// other for the edges. A light that stays within the last margin costs a comparison. Its detector
+/// keeps state; without it (a new one for each call, or one for many pairs) it takes every light
+/// for a jump.
 [[nodiscard]] const SilhouetteStrategy& automatic_strategy();
 /// By name, "auto" included. Null where there is none.
 [[nodiscard]] const SilhouetteStrategy* find_strategy(std::string_view name);

@@ -24,10 +24,11 @@ public:
 
     /// Infinite where there is nothing.
     [[nodiscard]] double next() const { return next_; }
-    /// Calls visit(thing) for every one that is due before `time`, ascending.
+    /// Calls visit(thing) for every one that is due before `time`, ascending, as long as it returns
+    /// true.
     template <class Visit>
     void visit_due(double time, const Visit& visit) const {
-        if (next_ < time) visit_node(levels_.size() - 1, 0, time, visit);
+        if (next_ < time) static_cast<void>(visit_node(levels_.size() - 1, 0, time, visit));
     }
 
     [[nodiscard]] std::size_t memory_bytes() const;
@@ -41,16 +42,15 @@ private:
         return all.subspan(node * fan, std::min(fan, all.size() - node * fan));
     }
     template <class Visit>
-    void visit_node(std::size_t level, std::size_t node, double time, const Visit& visit) const {
+    bool visit_node(std::size_t level, std::size_t node, double time, const Visit& visit) const {
         const std::span<const double> values = children(level, node);
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (!(values[i] < time)) continue;
-            if (level == 0) {
-                visit(node * fan + i);
-            } else {
-                visit_node(level - 1, node * fan + i, time, visit);
-            }
+            const bool more = level == 0 ? visit(node * fan + i)
+                                         : visit_node(level - 1, node * fan + i, time, visit);
+            if (!more) return false;
         }
+        return true;
     }
 
     std::vector<std::vector<double>> levels_{{}};  ///< level k + 1: the least of 16 each of level k

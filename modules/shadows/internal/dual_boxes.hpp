@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include <gnomon/shadows/shadow_mesh.hpp>
@@ -69,21 +70,21 @@ public:
     [[nodiscard]] std::size_t memory_bytes() const;
 
     /// Calls settled(first_block, block_count, facing, nearest) for the largest boxes that are, and
-    /// crossed(block) for the blocks that are not, together for every block once.
-    /// Returns the number of nodes tested. Cost: near the number of boxes that the hyperplane
-    /// crosses.
+    /// crossed(block) for the blocks that are not, together for every block once. Where crossed()
+    /// returns a bool, false ends the visit. Returns the number of nodes tested. Cost: near the
+    /// number of boxes that the hyperplane crosses.
     template <class Settled, class Crossed>
     std::size_t visit(const FilterLight& light, const Settled& settled,
                       const Crossed& crossed) const {
         if (levels_.empty()) return 0;
         std::size_t tested = 0;
-        visit_node(levels_.size() - 1, 0, light, settled, crossed, tested);
+        static_cast<void>(visit_node(levels_.size() - 1, 0, light, settled, crossed, tested));
         return tested;
     }
 
 private:
     template <class Settled, class Crossed>
-    void visit_node(std::size_t level, std::size_t node, const FilterLight& light,
+    bool visit_node(std::size_t level, std::size_t node, const FilterLight& light,
                     const Settled& settled, const Crossed& crossed, std::size_t& tested) const {
         const BoxSides sides = test_boxes(levels_[level][node], light);
         ++tested;
@@ -111,12 +112,15 @@ private:
         }
         for (std::uint32_t rest = open; rest != 0; rest &= rest - 1) {
             const std::size_t box = first + static_cast<std::size_t>(std::countr_zero(rest));
-            if (level == 0) {
+            if (level > 0) {
+                if (!visit_node(level - 1, box, light, settled, crossed, tested)) return false;
+            } else if constexpr (std::is_void_v<decltype(crossed(box))>) {
                 crossed(box);
-            } else {
-                visit_node(level - 1, box, light, settled, crossed, tested);
+            } else if (!crossed(box)) {
+                return false;
             }
         }
+        return true;
     }
 
     std::size_t blocks_ = 0;

@@ -8,6 +8,8 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -147,14 +149,18 @@ void visit_others(const ShadowMesh& mesh, const Sides& sides, std::uint64_t& tes
 inline constexpr std::uint64_t bytes_per_face_test = 5 * sizeof(float);
 inline constexpr std::uint64_t bytes_per_edge_test = 2 * sizeof(FaceUse);
 
+inline constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
 /// Decides all faces by the hierarchy of boxes. Calls settled(first_block, block_count, margin) for
 /// pieces that together are all of them: no face of a piece changes its side while the light moves
 /// no further than that (Facing::margin). `crossed`: room for a list, afterwards that of the blocks
-/// that no box settled.
+/// that no box settled. Returns the number of nodes that were tested; nothing as soon as such
+/// blocks are more than `most`: nothing is decided then.
 template <class Settled>
-void search_faces(const ShadowMesh& mesh, const BlockClassifier& classifier, FaceSides& sides,
-                  std::vector<std::uint32_t>& crossed, DetectionStats& stats,
-                  const Settled& settled) {
+std::optional<std::size_t> search_faces(const ShadowMesh& mesh, const BlockClassifier& classifier,
+                                        FaceSides& sides, std::vector<std::uint32_t>& crossed,
+                                        DetectionStats& stats, std::size_t most,
+                                        const Settled& settled) {
     crossed.clear();
     const std::size_t nodes = tables_of(mesh).faces.visit(
         classifier.light(),
@@ -165,7 +171,10 @@ void search_faces(const ShadowMesh& mesh, const BlockClassifier& classifier, Fac
         [&](std::size_t block) {
             classifier.prefetch_block(block);
             crossed.push_back(static_cast<std::uint32_t>(block));
+            return crossed.size() <= most;
         });
+    stats.bytes_touched += nodes * sizeof(BoxNode);
+    if (crossed.size() > most) return std::nullopt;
     for (const std::uint32_t block : crossed) {
         const BlockClassifier::Block found = classifier.classify(block);
         sides.set_block(block, found.facing, found.edge_on);
@@ -173,17 +182,26 @@ void search_faces(const ShadowMesh& mesh, const BlockClassifier& classifier, Fac
     }
     for (const std::uint32_t face : mesh.degenerate_faces()) sides.set_edge_on(face);
     stats.faces_tested += crossed.size() * block_size;
-    stats.bytes_touched +=
-        nodes * sizeof(BoxNode) + crossed.size() * block_size * bytes_per_face_test;
+    stats.bytes_touched += crossed.size() * block_size * bytes_per_face_test;
+    return nodes;
 }
 
-/// Calls visit(edge, count) for every silhouette edge, once. `sides` are complete. `crossed`: as
-/// above, of edges.
+/// Decides all faces in turn. Returns the smallest margin.
+inline double test_all_faces(const ShadowMesh& mesh, const BlockClassifier& classifier,
+                             FaceSides& sides, DetectionStats& stats) {
+    stats.faces_tested += mesh.faces().size();
+    stats.bytes_touched += mesh.faces().size() * bytes_per_face_test;
+    return classifier.classify_all(sides);
+}
+
+/// Calls visit(edge, count) for every silhouette edge, once. `sides` are complete. `crossed` and
+/// `most`: as above, of edges; where it returns nothing, there were no calls.
 template <class Visit>
-void search_edges(const ShadowMesh& mesh, const Sides& sides, const FilterLight& light,
-                  std::vector<std::uint32_t>& crossed, DetectionStats& stats, const Visit& visit) {
+std::optional<std::size_t> search_edges(const ShadowMesh& mesh, const Sides& sides,
+                                        const FilterLight& light,
+                                        std::vector<std::uint32_t>& crossed, DetectionStats& stats,
+                                        std::size_t most, const Visit& visit) {
     crossed.clear();
-    RegularEdges regular(mesh, sides, visit);
     const std::size_t nodes = tables_of(mesh).edges.visit(
         light, [](std::size_t, std::size_t, bool, float) {},
         [&](std::size_t block) {
@@ -191,7 +209,11 @@ void search_edges(const ShadowMesh& mesh, const Sides& sides, const FilterLight&
             prefetch(uses);
             prefetch(uses + block_size);
             crossed.push_back(static_cast<std::uint32_t>(block));
+            return crossed.size() <= most;
         });
+    stats.bytes_touched += nodes * sizeof(BoxNode);
+    if (crossed.size() > most) return std::nullopt;
+    RegularEdges regular(mesh, sides, visit);
     for (const std::uint32_t block : crossed) {
         const std::size_t first = block * block_size;
         regular.add(first, std::min(block_size, mesh.regular_edges() - first));
@@ -199,7 +221,22 @@ void search_edges(const ShadowMesh& mesh, const Sides& sides, const FilterLight&
     std::uint64_t tested = regular.finish();
     visit_others(mesh, sides, tested, visit);
     stats.edges_tested += tested;
-    stats.bytes_touched += nodes * sizeof(BoxNode) + tested * bytes_per_edge_test;
+    stats.bytes_touched += tested * bytes_per_edge_test;
+    return nodes;
+}
+
+/// The same by looking at every edge in turn.
+template <class Visit>
+void test_all_edges(const ShadowMesh& mesh, const Sides& sides, DetectionStats& stats,
+                    const Visit& visit) {
+    RegularEdges regular(mesh, sides, visit);
+    for (std::size_t first = 0; first < mesh.regular_edges(); first += regular.most) {
+        regular.add(first, std::min(regular.most, mesh.regular_edges() - first));
+    }
+    std::uint64_t tested = regular.finish();
+    visit_others(mesh, sides, tested, visit);
+    stats.edges_tested += tested;
+    stats.bytes_touched += tested * bytes_per_edge_test;
 }
 
 }  // namespace gnomon::shadows::internal

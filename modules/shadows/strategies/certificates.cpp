@@ -16,23 +16,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 
-#include "internal/displacement.hpp"
 #include "internal/finite.hpp"
 #include "internal/strategies.hpp"
+#include "internal/work.hpp"
 
 namespace gnomon::shadows::internal {
 
 namespace {
-
-// Never less than the exact sum, so that no certificate is trusted too long.
-double sum_up(double a, double b) {
-    return (a + b) * (1.0 + std::numeric_limits<double>::epsilon());
-}
-double sum_down(double a, double b) {
-    return (a + b) * (1.0 - std::numeric_limits<double>::epsilon());
-}
 
 // Of some of the values: so small that about `count` of all are below.
 double quantile(std::span<const double> values, std::size_t count) {
@@ -55,30 +46,34 @@ const Detection& Certificates::detect(const ShadowMesh& mesh, LightLocal light,
         mesh_ = 0;
         return nothing_of(mesh, found_);
     }
-    found_.stats = {};
     if (mesh_ != mesh.id() || near_caps_ != near_caps ||
         light_.is_directional() != light.is_directional()) {
         search(mesh, light, near_caps);
         return found_;
     }
-    const double way = sum_up(way_, displacement(light_, light));
-    found_.changed = false;
-    if (way > std::min(deadlines_.next(), castings_deadline_)) {
-        const double step = way - way_;
-        const bool far = !(step < far_);
-        way_ = way;
-        light_ = light;
-        if (far) {
-            search(mesh, light, near_caps);
-            return found_;
-        }
-        renew(mesh);
-        // What was far from where the last search was need not be from here: steps by which much
-        // falls due each time are far as well.
-        if (blocks_.size() > deadlines_.values().size() / 8 + 8) far_ = std::min(far_, step);
+    switch (look(light)) {
+        case Due::Nothing: break;
+        case Due::Some: renew(mesh); break;
+        case Due::Much: search(mesh, light, near_caps); break;
     }
-    found_.margin = std::max(0.0, sum_down(std::min(deadlines_.next(), castings_deadline_), -way));
     return found_;
+}
+
+Certificates::Due Certificates::find_due(LightLocal light, double way) {
+    const bool far = !(way - way_ < far_);
+    way_ = way;
+    light_ = light;
+    if (far) return Due::Much;
+    blocks_.clear();
+    deadlines_.visit_due(way_, [&](std::size_t block) {
+        blocks_.push_back(static_cast<std::uint32_t>(block));
+        return blocks_.size() <= most_due_;
+    });
+    return blocks_.size() <= most_due_ ? Due::Some : Due::Much;
+}
+
+double Certificates::margin() const {
+    return std::max(0.0, sum_down(std::min(deadlines_.next(), castings_deadline_), -way_));
 }
 
 std::size_t Certificates::memory_bytes() const {
@@ -96,29 +91,37 @@ void Certificates::search(const ShadowMesh& mesh, LightLocal light, NearCaps nea
     near_caps_ = near_caps;
     light_ = light;
     way_ = 0.0;
+    found_.stats = {};
     found_.changed = true;
     find_castings(mesh, light, near_caps, sides_.castings, found_.solid_averted);
     castings_deadline_ = sides_.castings.margin;
     const BlockClassifier classifier(mesh, light, found_.stats);
     const std::span<double> deadlines = deadlines_.values();
-    search_faces(mesh, classifier, sides_.faces, blocks_, found_.stats,
-                 [&](std::size_t first, std::size_t count, double margin) {
-                     std::ranges::fill(deadlines.subspan(first, count), margin);
-                 });
+    const std::size_t nodes =
+        *search_faces(mesh, classifier, sides_.faces, blocks_, found_.stats, no_limit,
+                      [&](std::size_t first, std::size_t count, double margin) {
+                          std::ranges::fill(deadlines.subspan(first, count), margin);
+                      });
     deadlines_.rebuild();
-    far_ = quantile(deadlines, blocks_.size());
+    jump_work_ = work::search_of_faces(nodes, blocks_.size());
     find_casting(mesh, sides_, found_.casting);
-    find_whole_silhouette(mesh, classifier.light());
-    found_.margin = std::min(deadlines_.next(), castings_deadline_);
+    jump_work_ += find_whole_silhouette(mesh, classifier.light());
+    jump_work_ += work::of_detection(deadlines.size(), found_.silhouette.size());
+    work_ = jump_work_ + work::new_certificate * static_cast<double>(deadlines.size());
+    most_due_ = static_cast<std::size_t>(work_ / work::renewed_block);
+    far_ = quantile(deadlines, most_due_);
+    found_.margin = margin();
 }
 
-void Certificates::find_whole_silhouette(const ShadowMesh& mesh, const FilterLight& light) {
+double Certificates::find_whole_silhouette(const ShadowMesh& mesh, const FilterLight& light) {
     const auto edges = mesh.edges();
     silhouette_.clear(edges.size());
-    search_edges(mesh, sides_, light, blocks_, found_.stats,
-                 [&](std::size_t edge, std::int32_t count) {
-                     silhouette_.add(edge, silhouette_edge(edges[edge], count));
-                 });
+    const std::size_t nodes =
+        *search_edges(mesh, sides_, light, blocks_, found_.stats, no_limit,
+                      [&](std::size_t edge, std::int32_t count) {
+                          silhouette_.add(edge, silhouette_edge(edges[edge], count));
+                      });
+    return work::search_of_edges(nodes, blocks_.size());
 }
 
 bool Certificates::renew_castings(const ShadowMesh& mesh) {
@@ -131,12 +134,8 @@ bool Certificates::renew_castings(const ShadowMesh& mesh) {
 
 void Certificates::renew(const ShadowMesh& mesh) {
     flipped_.clear();
-    blocks_.clear();
     const BlockClassifier classifier(mesh, light_, found_.stats);
-    deadlines_.visit_due(way_, [&](std::size_t block) {
-        classifier.prefetch_block(block);
-        blocks_.push_back(static_cast<std::uint32_t>(block));
-    });
+    for (const std::uint32_t block : blocks_) classifier.prefetch_block(block);
     FaceSides& sides = sides_.faces;
     for (const std::uint32_t block : blocks_) {
         const BlockClassifier::Block decided = classifier.classify(block);
@@ -150,15 +149,18 @@ void Certificates::renew(const ShadowMesh& mesh) {
         deadlines_.values()[block] = sum_down(way_, decided.margin);
     }
     deadlines_.renew(blocks_);
+    work_ = work::call + work::renewed_block * static_cast<double>(blocks_.size());
     found_.stats.faces_tested = blocks_.size() * block_size;
     found_.stats.bytes_touched = blocks_.size() * block_size * bytes_per_face_test;
     const bool recast = castings_deadline_ < way_ && renew_castings(mesh);
+    found_.margin = margin();
     if (!recast && flipped_.empty()) return;
 
     found_.changed = true;
     if (recast || flipped_.size() > mesh.faces().size() / 16 + 16) {
         find_casting(mesh, sides_, found_.casting);
-        find_whole_silhouette(mesh, classifier.light());
+        work_ += find_whole_silhouette(mesh, classifier.light());
+        work_ += work::of_detection(deadlines_.values().size(), found_.silhouette.size());
         return;
     }
     const auto edges = mesh.edges();
@@ -175,6 +177,7 @@ void Certificates::renew(const ShadowMesh& mesh) {
         }
     }
     found_.stats.edges_tested = 3 * flipped_.size();
+    work_ += work::renewed_edge * static_cast<double>(found_.stats.edges_tested);
     found_.stats.bytes_touched += found_.stats.edges_tested * (sizeof(Edge) + bytes_per_edge_test);
 }
 

@@ -23,14 +23,14 @@ public:
         sides_.faces.resize(mesh.faces().size());
         const BlockClassifier classifier(mesh, light, found_.stats);
         found_.margin = sides_.castings.margin;
-        search_faces(mesh, classifier, sides_.faces, crossed_, found_.stats,
+        search_faces(mesh, classifier, sides_.faces, crossed_, found_.stats, no_limit,
                      [&](std::size_t, std::size_t, double margin) {
                          found_.margin = std::min(found_.margin, margin);
                      });
         find_casting(mesh, sides_, found_.casting);
         found_.silhouette.clear();
         const auto edges = mesh.edges();
-        search_edges(mesh, sides_, classifier.light(), crossed_, found_.stats,
+        search_edges(mesh, sides_, classifier.light(), crossed_, found_.stats, no_limit,
                      [&](std::size_t edge, std::int32_t count) {
                          found_.silhouette.push_back(silhouette_edge(edges[edge], count));
                      });

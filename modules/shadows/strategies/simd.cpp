@@ -20,24 +20,14 @@ public:
         find_castings(mesh, light, near_caps, sides_.castings, found_.solid_averted);
         sides_.faces.resize(mesh.faces().size());
         const BlockClassifier classifier(mesh, light, found_.stats);
-        found_.margin = std::min(classifier.classify_all(sides_.faces), sides_.castings.margin);
+        found_.margin = std::min(test_all_faces(mesh, classifier, sides_.faces, found_.stats),
+                                 sides_.castings.margin);
         find_casting(mesh, sides_, found_.casting);
-
         found_.silhouette.clear();
         const auto edges = mesh.edges();
-        const auto add = [&](std::size_t edge, std::int32_t count) {
+        test_all_edges(mesh, sides_, found_.stats, [&](std::size_t edge, std::int32_t count) {
             found_.silhouette.push_back(silhouette_edge(edges[edge], count));
-        };
-        RegularEdges regular(mesh, sides_, add);
-        for (std::size_t first = 0; first < mesh.regular_edges(); first += regular.most) {
-            regular.add(first, std::min(regular.most, mesh.regular_edges() - first));
-        }
-        std::uint64_t tested = regular.finish();
-        visit_others(mesh, sides_, tested, add);
-        found_.stats.faces_tested = mesh.faces().size();
-        found_.stats.edges_tested = tested;
-        found_.stats.bytes_touched =
-            mesh.faces().size() * bytes_per_face_test + tested * bytes_per_edge_test;
+        });
         return found_;
     }
 
