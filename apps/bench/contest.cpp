@@ -22,6 +22,8 @@ double ns_between(Clock::time_point begin, Clock::time_point end) {
 double net(double ns) { return std::max(1.0, ns - clock_cost_ns()); }
 
 constexpr std::uint64_t usual_block = 9;
+constexpr std::uint64_t smallest_block = 3;
+constexpr std::uint64_t fewest_blocks = 9;
 constexpr int repeats = 3;
 
 struct Entry {
@@ -73,12 +75,13 @@ public:
                 const double round_s = 1e-9 * ns_between(second, Clock::now());
                 if (10.0 * round_s > seconds) last = 1;
                 const double affordable = seconds / (16.0 * last * round_s + 1e-9);
-                block = static_cast<std::uint64_t>(
-                    std::clamp(affordable, 2.0, static_cast<double>(usual_block)));
+                block = static_cast<std::uint64_t>(std::clamp(affordable,
+                                                              static_cast<double>(smallest_block),
+                                                              static_cast<double>(usual_block)));
             }
             const auto goes_on = [&](std::uint64_t done) {
                 if (repeat > 0) return done < blocks;
-                return done < (last > 1 ? 3U : 1U) ||
+                return done * static_cast<std::uint64_t>(last) < fewest_blocks ||
                        ns_between(begin, Clock::now()) * last < seconds * 1e9;
             };
             std::uint64_t done = 0;
@@ -159,22 +162,34 @@ private:
         }
     }
 
-    std::optional<Spread> faster_than(std::string_view name, const Entry& entry) const {
+    // One value a block: of what the other took and this one.
+    template <class Compare>
+    std::optional<Spread> compared_to(std::string_view name, const Entry& entry,
+                                      const Compare& compare) const {
         const auto other = std::ranges::find(
             entries_, name, [](const Entry& e) -> std::string_view { return e.contestant->name; });
         if (other == entries_.end()) return std::nullopt;
-        std::vector<double> ratios(entry.blocks_ns.size());
-        std::ranges::transform(other->blocks_ns, entry.blocks_ns, ratios.begin(), std::divides<>());
-        return spread_of(ratios);
+        std::vector<double> values(entry.blocks_ns.size());
+        std::ranges::transform(other->blocks_ns, entry.blocks_ns, values.begin(), compare);
+        return spread_of(values);
     }
 
-    std::vector<std::pair<std::string, Spread>> faster_than_parts(const Entry& entry) const {
-        std::vector<std::pair<std::string, Spread>> result;
-        if (entry.contestant->name != "auto") return result;
-        for (const char* part : {"simd", "dual_bvh", "certificates"}) {
-            if (const auto spread = faster_than(part, entry)) result.emplace_back(part, *spread);
+    std::optional<Spread> faster_than(std::string_view name, const Entry& entry) const {
+        return compared_to(name, entry, std::divides<>());
+    }
+
+    void add_parts(const Entry& entry, std::uint64_t block, Measured& measured) const {
+        if (measured.name != "auto") return;
+        const double frames = static_cast<double>(block - 1);
+        for (const char* part : {"brute_force", "simd", "dual_bvh", "certificates"}) {
+            const auto ratio = faster_than(part, entry);
+            if (!ratio) continue;
+            measured.faster_than_parts.emplace_back(part, *ratio);
+            measured.slower_than_parts_ns.emplace_back(
+                part, *compared_to(part, entry, [frames](double theirs, double ours) {
+                    return (ours - theirs) / frames;
+                }));
         }
-        return result;
     }
 
     static double worst_of(std::span<const double> times, std::size_t frames) {
@@ -211,8 +226,8 @@ private:
                  .memory_bytes = entry.detector->memory_bytes(),
                  .choices = entry.choices,
                  .faster_than_brute_force = faster_than("brute_force", entry),
-                 .faster_than_simd = faster_than("simd", entry),
-                 .faster_than_parts = faster_than_parts(entry)});
+                 .faster_than_simd = faster_than("simd", entry)});
+            add_parts(entry, block, result.measured.back());
             if (result.silhouette_edges == 0.0 && entry.contestant->compared) {
                 result.silhouette_edges = entry.edges / count;
             }

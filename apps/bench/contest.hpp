@@ -8,7 +8,8 @@
 // The whole is run three times, from the same start over the same lights. What one frame takes at
 // worst is the worst of the best of three: a strategy that does more work in some frame does so
 // every time, but a processor that was taken away comes back the next time.
-// Where ten frames of all would take longer than there is time, one repeat has to do.
+// Where ten frames of all would take longer than there is time, one repeat has to do. Turns are
+// nine at least in any case: the interval of a median wants six.
 //
 // Turns are blocks of a few frames in an order that is drawn anew for each block. The first frame
 // of a turn counts for the worst frame and the mean alone: what it finds in the caches is what the
@@ -61,8 +62,10 @@ struct Measured {
     /// How many times as long the other took, block by block.
     std::optional<Spread> faster_than_brute_force = std::nullopt;
     std::optional<Spread> faster_than_simd = std::nullopt;
-    /// Of "auto" alone: the same against each of what it chooses from.
+    /// Of "auto" alone: the same against each of what it chooses from, and by how many nanoseconds
+    /// a frame it was slower, block by block: a ratio of two times of some nanoseconds says little.
     std::vector<std::pair<std::string, Spread>> faster_than_parts = {};
+    std::vector<std::pair<std::string, Spread>> slower_than_parts_ns = {};
 };
 
 struct Contest {
@@ -76,8 +79,8 @@ struct Contest {
     std::vector<std::string> disagreements;
 };
 
-/// Runs until `seconds` are over, about, and for three blocks a repeat at least, or for one block
-/// of one repeat.
+/// Runs until `seconds` are over, about, and for nine blocks of three frames at least, however long
+/// they take.
 [[nodiscard]] Contest run_contest(const shadows::ShadowMesh& mesh, const Motion& motion,
                                   std::span<const Contestant> contestants, double seconds);
 

@@ -69,6 +69,8 @@ Json to_json(const Contest& contest) {
         }
         Json parts = Json::object();
         for (const auto& [name, spread] : m.faster_than_parts) parts[name] = to_json(spread);
+        Json parts_ns = Json::object();
+        for (const auto& [name, spread] : m.slower_than_parts_ns) parts_ns[name] = to_json(spread);
         strategies.push_back({{"name", m.name},
                               {"time_ns", to_json(m.time_ns)},
                               {"mean_ns", rounded(m.mean_ns)},
@@ -80,6 +82,7 @@ Json to_json(const Contest& contest) {
                               {"memory_bytes", m.memory_bytes},
                               {"choices", std::move(choices)},
                               {"faster_than_parts", std::move(parts)},
+                              {"slower_than_parts_ns", std::move(parts_ns)},
                               {"faster_than_brute_force", to_json(m.faster_than_brute_force)},
                               {"faster_than_simd", to_json(m.faster_than_simd)}});
     }

@@ -75,6 +75,22 @@ TEST(Contest, FindsTheSlowFrame) {
     EXPECT_EQ(contest.frames % contest.frames_per_block, 0U);
 }
 
+// Whatever the time allowed, there are turns enough for an interval of their median; and "auto" is
+// told by how much it is slower than what it chooses from.
+TEST(Contest, HasTurnsEnoughAndSaysByHowMuch) {
+    const auto mesh = test::build(test::box());
+    const std::vector<Contestant> contestants{altered("simd", false, 0), altered("auto", false, 1)};
+    const Contest contest = run_contest(*mesh, jump, contestants, 1e-9);
+    EXPECT_GE(contest.frames / contest.frames_per_block, 9U);
+    EXPECT_GE(contest.frames_per_block, 3U);
+    const Measured& automatic = contest.measured[1];
+    ASSERT_EQ(automatic.slower_than_parts_ns.size(), 1U);
+    EXPECT_EQ(automatic.slower_than_parts_ns[0].first, "simd");
+    EXPECT_GT(automatic.slower_than_parts_ns[0].second.low, 1.9e6);
+    EXPECT_LT(automatic.faster_than_parts[0].second.high, 0.5);
+    EXPECT_TRUE(contest.measured[0].slower_than_parts_ns.empty());
+}
+
 TEST(Motions, StayAtThreeRadii) {
     const Sphere about{{1, 2, 3}, 2.0};
     for (const Motion& motion : motions(false)) {
