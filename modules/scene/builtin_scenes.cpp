@@ -7,11 +7,13 @@
 
 #include <fmt/format.h>
 
+#include <gnomon/scene/deform.hpp>
 #include <gnomon/scene/primitives.hpp>
 #include <gnomon/scene/scene_description.hpp>
 #include <gnomon/scene/transforms.hpp>
 
 #include "internal/compose.hpp"
+#include "internal/walker.hpp"
 
 namespace gnomon::scene {
 namespace {
@@ -302,15 +304,44 @@ Scene make_open_shapes() {
     return scene;
 }
 
+/// One walker, five times, as a camera with an open shutter and a flash would see it: from one to
+/// the next it does a cycle and a fifth. The shadows run over the ground and up a wall.
+Scene make_walk() {
+    Scene scene;
+    add_camera(scene, {-0.55, 2.7, 9.6}, {0.2, 0.86, -0.6}, 18.5);
+    add_ground(scene, 60.0F, {0.33F, 0.27F, 0.21F});
+    const std::uint32_t stone = paint(scene, "sandstone", {0.64F, 0.50F, 0.36F}, 0.95F);
+    add_instance(scene, "wall", share(make_box({40.0F, 3.6F, 0.3F}, stone)), at({0.0, 1.8, -1.6}));
+    const auto walker =
+        internal::make_walker_mesh(paint(scene, "indigo", {0.07F, 0.15F, 0.24F}, 0.55F));
+    Animation walk;
+    walk.name = "walk";
+    std::vector<AnimationSampler> samplers;
+    constexpr int times = 5;
+    const double apart_m = 1.2 * internal::walker_stride_m;
+    for (int i = 0; i < times; ++i) {
+        internal::add_walker(scene, fmt::format("walker {}", i + 1), walker,
+                             at({-0.5 * (times - 1) * apart_m, 0.0, 0.0}, {0.0, 90.0, 0.0}),
+                             1.2 * i, walk, samplers);
+    }
+    walk.samplers = std::make_shared<const std::vector<AnimationSampler>>(std::move(samplers));
+    scene.animations.push_back(std::move(walk));
+    const Entity sun =
+        scene.create_node("sun", internal::looking_along(glm::dvec3(0.0), {0.50, -0.43, -0.87}));
+    scene.registry.emplace<DirectionalLight>(sun, evening_sun, 2.4F);
+    return scene;
+}
+
 struct Builtin {
     std::string_view name;
     Scene (*make)();
 };
-constexpr std::array<Builtin, 5> builtins{{{"pillars", make_pillars},
+constexpr std::array<Builtin, 6> builtins{{{"pillars", make_pillars},
                                            {"knot", make_knot},
                                            {"room", make_room},
                                            {"still-life", make_still_life},
-                                           {"open-shapes", make_open_shapes}}};
+                                           {"open-shapes", make_open_shapes},
+                                           {"walk", make_walk}}};
 
 }  // namespace
 
@@ -325,6 +356,7 @@ Result<Scene> make_builtin_scene(std::string_view name) {
         if (builtin.name != name) continue;
         Scene scene = builtin.make();
         update_world_transforms(scene.registry);
+        if (const Status deformed = deform(scene); !deformed) return forward_error(deformed);
         return scene;
     }
     return fail(ErrorCode::InvalidInput, fmt::format("The built-in scene \"{}\" does not exist; "

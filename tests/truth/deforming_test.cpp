@@ -12,6 +12,7 @@
 #include <gnomon/scene/deform.hpp>
 #include <gnomon/scene/gltf.hpp>
 #include <gnomon/scene/primitives.hpp>
+#include <gnomon/scene/scene_description.hpp>
 #include <gnomon/scene/shadow_adapter.hpp>
 #include <gnomon/scene/transforms.hpp>
 
@@ -132,6 +133,19 @@ TEST(Deforming, a_figure_far_from_the_origin_casts_the_same_shadow) {
         file.node({{"name", "far"}, {"translation", {2e5, -1e5, 3e5}}, {"children", {0}}});
     file.json["scenes"][0]["nodes"][0] = root;
     judge_over_time(on_the_ground(must(file.load())), {0.1, 0.45, 0.7});
+}
+
+// The picture of docs/images/walking_figure.png, at these times.
+TEST(Deforming, the_walkers_of_the_built_in_scene_cast_their_shadows) {
+    scene::Scene scene = must(scene::make_builtin_scene("walk"));
+    shadows::View view;
+    scene.registry.each<scene::Camera, scene::WorldTransform>(
+        [&](scene::Entity, const scene::Camera&, const scene::WorldTransform& at) {
+            // Wider than the picture's, whose width is more than twice its height.
+            const scene::Camera camera{scene::PerspectiveCamera{.fovy_rad = 0.56, .near_m = 0.02}};
+            view = render::make_view(camera, at.world_from_local, aspect);
+        });
+    judge_over_time({std::move(scene), view}, {0.0, 0.6});
 }
 
 TEST(Deforming, the_pose_of_another_time_is_found_wrong) {
