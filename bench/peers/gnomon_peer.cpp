@@ -62,10 +62,11 @@ public:
     Result<std::vector<std::byte>> picture() override {
         return wet_->device.read_texture(wet_->renderer->picture());
     }
-    bool runs_dry() const override { return dry_ != nullptr; }
+    bool runs_dry() const override { return GNOMON_PEER_IS_GL; }
     nlohmann::ordered_json describe() const override;
 
 private:
+    Status start_dry();
     void pose(scene::Entity entity, const glm::dmat4& world_from_local) {
         scene_.registry.get<scene::WorldTransform>(entity).world_from_local = world_from_local;
     }
@@ -121,22 +122,25 @@ GnomonPeer::GnomonPeer(const PeerScene& scene, Size size) : size_(size) {
 }
 
 Status GnomonPeer::start() {
-#if GNOMON_PEER_IS_GL
-    constexpr auto backend = "gl";
-    auto context = gl::create_osmesa_context();
-    if (context) {
-        auto dry_backend = gl::create_backend(make_dry(std::move(*context)));
-        if (!dry_backend) return forward_error(dry_backend);
-        auto dry = make_stage(gpu::Device(std::move(*dry_backend)), scene_, size_);
-        if (!dry) return forward_error(dry);
-        dry_ = std::move(*dry);
-    }
-#else
-    constexpr auto backend = "vk";
-#endif
+    constexpr auto backend = GNOMON_PEER_IS_GL ? "gl" : "vk";
     auto wet = make_stage(cli::create_device({.backend = backend}), scene_, size_);
     if (!wet) return forward_error(wet);
     wet_ = std::move(*wet);
+    return {};
+}
+
+// Only when it is asked for: it is no part of the set-up that is measured.
+Status GnomonPeer::start_dry() {
+#if GNOMON_PEER_IS_GL
+    auto context = gl::create_osmesa_context();
+    if (!context) context = gl::create_egl_context();
+    if (!context) return forward_error(context);
+    auto backend = gl::create_backend(make_dry(std::move(*context)));
+    if (!backend) return forward_error(backend);
+    auto dry = make_stage(gpu::Device(std::move(*backend)), scene_, size_);
+    if (!dry) return forward_error(dry);
+    dry_ = std::move(*dry);
+#endif
     return {};
 }
 
@@ -152,6 +156,9 @@ void GnomonPeer::move_light(std::size_t light, const glm::dvec4& position_world)
 }
 
 Status GnomonPeer::draw(bool shadows, bool dry) {
+    if (dry && !dry_) {
+        if (const Status started = start_dry(); !started) return started;
+    }
     Stage& stage = dry ? *dry_ : *wet_;
     shadows::ShadowSystem& system = shadows ? *stage.with_shadows : *stage.without_shadows;
     auto frame = system.begin_frame();

@@ -74,8 +74,8 @@ Status Session::draw(const Json& command, std::int64_t frame, bool everything, b
             peer_.move_instance(i, pose_in(scene_, instance, *motion, frame));
     }
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-        if (everything || *motion == Motion::Lights)
-            peer_.move_light(i, light_in(scene_, scene_.lights[i], *motion, frame));
+        if (everything || *motion == Motion::Lights || (*motion == Motion::Light && i == 0))
+            peer_.move_light(i, light_in(scene_, i, *motion, frame));
     }
     return peer_.draw(command.at("shadows").get<bool>(), dry);
 }
@@ -123,8 +123,9 @@ int serve(Answers& answers, const PeerScene& scene, Size size, const MakePeer& m
     const auto start = Clock::now();
     auto peer = make(scene, size);
     if (!peer) {
-        answers.send({{"unsupported", peer.error().message}});
-        return peer.error().code == ErrorCode::Unsupported ? 0 : 1;
+        const bool cannot = peer.error().code == ErrorCode::Unsupported;
+        answers.send({{cannot ? "unsupported" : "error", peer.error().message}});
+        return cannot ? 0 : 1;
     }
     Session session(**peer, scene, size);
     // What engines put off until they first draw belongs to the set-up.

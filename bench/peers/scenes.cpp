@@ -139,10 +139,12 @@ constexpr std::array<Known, 5> known_scenes{{{"crowd", make_crowd},
 
 Result<Motion> motion_named(std::string_view name) {
     if (name == "static") return Motion::Static;
+    if (name == "light") return Motion::Light;
     if (name == "lights") return Motion::Lights;
     if (name == "casters") return Motion::Casters;
-    return fail(ErrorCode::InvalidInput,
-                fmt::format("\"{}\" is no motion; there are static, lights, casters.", name));
+    return fail(
+        ErrorCode::InvalidInput,
+        fmt::format("\"{}\" is no motion; there are static, light, lights, casters.", name));
 }
 
 std::size_t PeerScene::triangle_count() const {
@@ -190,14 +192,15 @@ glm::dmat4 pose_in(const PeerScene& scene, const Instance& instance, Motion moti
     return pose;
 }
 
-glm::dvec4 light_in(const PeerScene& scene, const Light& light, Motion motion, std::int64_t frame) {
-    if (motion != Motion::Lights) return light.position_world;
+glm::dvec4 light_in(const PeerScene& scene, std::size_t light, Motion motion, std::int64_t frame) {
+    const glm::dvec4& position = scene.lights[light].position_world;
+    if (motion != Motion::Lights && (motion != Motion::Light || light != 0)) return position;
     double turn = glm::radians(scene.light_step_deg * static_cast<double>(frame));
     if (const double swing = glm::radians(scene.light_swing_deg); swing > 0.0)
         turn = swing * std::sin(turn / swing);
-    const glm::dvec4 pivot(scene.center * light.position_world.w, 0.0);
-    return pivot + glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(0.0, 1.0, 0.0)) *
-                       (light.position_world - pivot);
+    const glm::dvec4 pivot(scene.center * position.w, 0.0);
+    return pivot +
+           glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(0.0, 1.0, 0.0)) * (position - pivot);
 }
 
 }  // namespace gnomon::peers

@@ -19,6 +19,7 @@ namespace gnomon::peers {
 
 enum class Motion : std::uint8_t {
     Static,
+    Light,    ///< the first light does what Lights has all do
     Lights,   ///< every light goes round the scene, or swings
     Casters,  ///< those that move turn where they stand
 };
@@ -74,7 +75,7 @@ struct PeerScene {
 /// Where instance and light are in a frame.
 [[nodiscard]] glm::dmat4 pose_in(const PeerScene& scene, const Instance& instance, Motion motion,
                                  std::int64_t frame);
-[[nodiscard]] glm::dvec4 light_in(const PeerScene& scene, const Light& light, Motion motion,
+[[nodiscard]] glm::dvec4 light_in(const PeerScene& scene, std::size_t light, Motion motion,
                                   std::int64_t frame);
 
 }  // namespace gnomon::peers
