@@ -64,6 +64,29 @@ TEST_P(Renderer, what_the_mask_covers_is_darker) {
     EXPECT_GT(mean_brightness(rgba, mask, false), 1.4 * mean_brightness(rgba, mask, true));
 }
 
+// A light at the eye: the half vector is the viewer's direction, and their product rounds to more
+// than one here and there.
+TEST_P(Renderer, a_light_at_the_eye_leaves_no_black_pixels) {
+    Setting setting = row("hidden_caster").make();
+    scene::Registry& registry = setting.scene.registry;
+    std::vector<scene::Entity> lights;
+    registry.each<scene::PointLight>([&](scene::Entity e, auto&) { lights.push_back(e); });
+    registry.each<scene::DirectionalLight>([&](scene::Entity e, auto&) { lights.push_back(e); });
+    for (const scene::Entity light : lights) {
+        registry.remove<scene::PointLight>(light);
+        registry.remove<scene::DirectionalLight>(light);
+    }
+    const glm::dmat4 eye = glm::inverse(setting.view.view_from_world);
+    const scene::Entity lamp = setting.scene.create_node("lamp", {.matrix = eye});
+    registry.emplace<scene::PointLight>(lamp, scene::PointLight{.intensity = 40.0F});
+    const auto rgba = must(draw(device(), setting, small));
+    std::size_t black = 0;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        black += rgba[i] == std::byte{0} && rgba[i + 1] == std::byte{0} ? 1U : 0U;
+    }
+    EXPECT_EQ(black, 0U);
+}
+
 TEST_P(Renderer, every_overlay_shows) {
     const Setting setting = row("mirrored_and_sheared").make();
     const auto plain = must(draw(device(), setting, small));

@@ -76,7 +76,8 @@ vec3 lit(Surface s, Light light) {
     float nv = max(dot(s.normal, s.to_viewer), 1e-3);
     vec3 h = normalize(to_light + s.to_viewer);
     float nh = max(dot(s.normal, h), 0.0);
-    float vh = max(dot(s.to_viewer, h), 0.0);
+    // The lengths are rounded: beyond 1 the power below would be of a negative number, which is no number.
+    float vh = clamp(dot(s.to_viewer, h), 0.0, 1.0);
 
     float a = s.roughness * s.roughness;
     float d0 = nh * nh * (a * a - 1.0) + 1.0;
