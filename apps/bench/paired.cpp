@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <gnomon/shadows/jobs.hpp>
 #include <gnomon/shadows/shadow_mesh.hpp>
 
 #include "contest.hpp"
@@ -197,11 +198,15 @@ private:
         std::fprintf(stderr, "gnomon-bench: %s\n", subject.name.c_str());
         const Result<scene::Mesh> source = subject.make();
         if (!source) return forward_error(source);
+        const shadows::MeshView view{
+            .positions = reinterpret_cast<const std::byte*>(source->positions.data()),
+            .vertex_count = source->positions.size(),
+            .indices = source->indices};
+        const Clock::time_point shared = Clock::now();
+        static_cast<void>(shadows::ShadowMesh::build(view, two_threads_));
+        const double two_threads_ms = ms_since(shared);
         const Clock::time_point begin = Clock::now();
-        auto mesh = shadows::ShadowMesh::build(
-            {.positions = reinterpret_cast<const std::byte*>(source->positions.data()),
-             .vertex_count = source->positions.size(),
-             .indices = source->indices});
+        auto mesh = shadows::ShadowMesh::build(view);
         if (!mesh) {
             return fail(mesh.error().code, subject.name + ": " + mesh.error().message);
         }
@@ -232,6 +237,7 @@ private:
                                    {"edges", (*mesh)->edges().size()},
                                    {"closed", (*mesh)->report().closed()},
                                    {"mesh_ms", mesh_ms},
+                                   {"mesh_two_threads_ms", two_threads_ms},
                                    {"mesh_bytes", (*mesh)->memory_bytes()},
                                    {"structures", std::move(structures)}});
         return *mesh;
@@ -278,6 +284,7 @@ private:
     }
 
     PairedOptions options_;
+    shadows::Jobs two_threads_ = shadows::thread_jobs(2);
     Json json_ = Json::object();
     std::vector<std::string> disagreements_;
 };

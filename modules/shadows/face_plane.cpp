@@ -7,6 +7,8 @@
 
 #include <gnomon/shadows/orientation.hpp>
 
+#include "internal/run_jobs.hpp"
+
 namespace gnomon::shadows::internal {
 
 namespace {
@@ -56,7 +58,8 @@ float round_up(double value) {
 
 FacePlanes make_face_planes(std::span<const glm::vec3> positions,
                             std::span<const std::array<std::uint32_t, 3>> faces,
-                            const glm::vec3& bounds_min, const glm::vec3& bounds_max) {
+                            const glm::vec3& bounds_min, const glm::vec3& bounds_max,
+                            const Jobs& jobs) {
     FacePlanes planes;
     planes.origin = bounds_min * 0.5F + bounds_max * 0.5F;
     const glm::dvec3 origin(planes.origin);
@@ -67,15 +70,17 @@ FacePlanes make_face_planes(std::span<const glm::vec3> positions,
          {&planes.normal_x, &planes.normal_y, &planes.normal_z, &planes.offset, &planes.error}) {
         values->resize((faces.size() + 15) / 16 * 16, 0.0F);
     }
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        const FacePlane plane = make_face_plane(positions[faces[f][0]], positions[faces[f][1]],
-                                                positions[faces[f][2]], origin);
-        planes.normal_x[f] = plane.normal.x;
-        planes.normal_y[f] = plane.normal.y;
-        planes.normal_z[f] = plane.normal.z;
-        planes.offset[f] = plane.offset;
-        planes.error[f] = plane.error;
-    }
+    run_pieces(jobs, faces.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const FacePlane plane = make_face_plane(positions[faces[f][0]], positions[faces[f][1]],
+                                                    positions[faces[f][2]], origin);
+            planes.normal_x[f] = plane.normal.x;
+            planes.normal_y[f] = plane.normal.y;
+            planes.normal_z[f] = plane.normal.z;
+            planes.offset[f] = plane.offset;
+            planes.error[f] = plane.error;
+        }
+    });
     return planes;
 }
 

@@ -17,9 +17,10 @@ namespace gnomon::shadows {
 
 /// Runs task(0) … task(count - 1), each once, in any order and on any threads, the caller's
 /// included, and returns when all are done; what tasks wrote is visible to the caller then. It is
-/// called by one thread of a ShadowSystem at a time, never from within a task, and a task neither
-/// blocks nor calls it. Tasks throw nothing but std::bad_alloc; where that cannot pass through a
-/// scheduler, the program may as well end. Empty: one after the other, on the calling thread.
+/// called by one thread of a ShadowSystem or of ShadowMesh::build() at a time, never from within a
+/// task, and a task neither blocks nor calls it. Tasks throw nothing but std::bad_alloc; where that
+/// cannot pass through a scheduler, the program may as well end. Empty: one after the other, on the
+/// calling thread.
 using Jobs = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
 
 /// A runner on threads of its own, the caller's and `threads` - 1 more, which are started here,

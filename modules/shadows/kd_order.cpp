@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <limits>
+
+#include "internal/run_jobs.hpp"
 
 namespace gnomon::shadows::internal {
 
@@ -29,22 +32,47 @@ std::size_t widest_side(std::span<const KdItem> items) {
     return widest;
 }
 
+// Brings the items of the left child to the front and returns how many they are.
+std::size_t split(std::span<KdItem> items) {
+    const std::size_t side = widest_side(items);
+    // Blocks of 16 * 2^k on the left, so that they stay aligned all the way down.
+    const std::size_t middle = std::max(smallest_block, std::bit_ceil(items.size()) / 2);
+    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle),
+                     items.end(), [side](const KdItem& a, const KdItem& b) {
+                         if (a.key[side] != b.key[side]) return a.key[side] < b.key[side];
+                         return a.id < b.id;
+                     });
+    return middle;
+}
+
 }  // namespace
 
 void kd_order(std::span<KdItem> items) {
     while (items.size() > smallest_block) {
-        const std::size_t side = widest_side(items);
-        // Blocks of 16 * 2^k on the left, so that they stay aligned all the way down.
-        const std::size_t middle = std::max(smallest_block, std::bit_ceil(items.size()) / 2);
-        const auto cut = static_cast<std::ptrdiff_t>(middle);
-        std::nth_element(items.begin(), items.begin() + cut, items.end(),
-                         [side](const KdItem& a, const KdItem& b) {
-                             if (a.key[side] != b.key[side]) return a.key[side] < b.key[side];
-                             return a.id < b.id;
-                         });
+        const std::size_t middle = split(items);
         kd_order(items.first(middle));
         items = items.subspan(middle);
     }
+}
+
+void kd_order(std::vector<std::span<KdItem>> lists, const Jobs& jobs) {
+    // Of lists that are not alike in length, several threads have about as much each after that.
+    constexpr int rounds = 3;
+    constexpr std::size_t worth_a_task = 1U << 14U;
+    for (int round = 0; jobs && round < rounds; ++round) {
+        std::vector<std::size_t> middles(lists.size());
+        run_jobs(jobs, lists.size(), [&](std::size_t i) {
+            if (lists[i].size() > worth_a_task) middles[i] = split(lists[i]);
+        });
+        for (std::size_t i = middles.size(); i-- > 0;) {
+            if (middles[i] == 0) continue;
+            lists.push_back(lists[i].subspan(middles[i]));
+            lists[i] = lists[i].first(middles[i]);
+        }
+    }
+    // Those that take longest first.
+    std::ranges::sort(lists, std::greater<>(), [](const auto& list) { return list.size(); });
+    run_jobs(jobs, lists.size(), [&](std::size_t i) { kd_order(lists[i]); });
 }
 
 }  // namespace gnomon::shadows::internal

@@ -8,6 +8,7 @@
 
 #include "internal/disjoint_sets.hpp"
 #include "internal/kd_order.hpp"
+#include "internal/run_jobs.hpp"
 
 namespace gnomon::shadows::internal {
 
@@ -25,7 +26,7 @@ struct HalfEdge {
 
 // By low vertex, then high, then those that run low -> high first, then face.
 std::vector<HalfEdge> sorted_half_edges(std::span<const std::array<std::uint32_t, 3>> faces,
-                                        std::size_t vertices) {
+                                        std::size_t vertices, const Jobs& jobs) {
     std::vector<std::uint32_t> begin(vertices + 1, 0);
     const auto each = [&](const auto& visit) {
         for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -50,13 +51,15 @@ std::vector<HalfEdge> sorted_half_edges(std::span<const std::array<std::uint32_t
     std::vector<HalfEdge> result(count);
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
     each([&](const HalfEdge& edge) { result[next[edge.low]++] = edge; });
-    for (std::size_t v = 0; v < vertices; ++v) {
-        std::sort(result.begin() + begin[v], result.begin() + begin[v + 1],
-                  [](const HalfEdge& a, const HalfEdge& b) {
-                      return std::tuple(a.high, -a.sign, a.face) <
-                             std::tuple(b.high, -b.sign, b.face);
-                  });
-    }
+    run_pieces(jobs, vertices, [&](std::size_t first, std::size_t end) {
+        for (std::size_t v = first; v < end; ++v) {
+            std::sort(result.begin() + begin[v], result.begin() + begin[v + 1],
+                      [](const HalfEdge& a, const HalfEdge& b) {
+                          return std::tuple(a.high, -a.sign, a.face) <
+                                 std::tuple(b.high, -b.sign, b.face);
+                      });
+        }
+    });
     return result;
 }
 
@@ -79,9 +82,14 @@ float offset_scale(const FacePlanes& planes) {
     return scale > 0.0F && scale < 1e30F ? scale : 0.0F;
 }
 
-// The new order as a list of old faces, and the groups.
-std::vector<std::uint32_t> face_order(MeshTopology& topology, const FacePlanes& planes,
-                                      std::span<const std::uint8_t> closed) {
+struct FaceItems {
+    std::vector<KdItem> items;             // of all faces, group by group
+    std::vector<std::span<KdItem>> lists;  // the groups, each to be sorted
+};
+
+// Also makes the groups.
+FaceItems face_items(MeshTopology& topology, const FacePlanes& planes,
+                     std::span<const std::uint8_t> closed) {
     std::vector<std::uint32_t> sizes(topology.components, 0);
     for (const std::uint32_t c : topology.face_components) ++sizes[c];
     // Bins: the small open ones, the small closed ones, then one for each large component.
@@ -93,61 +101,68 @@ std::vector<std::uint32_t> face_order(MeshTopology& topology, const FacePlanes& 
     std::vector<std::uint32_t> begin(bins + 1, 0);
     for (const std::uint32_t c : topology.face_components) ++begin[bin_of[c] + 1];
     for (std::uint32_t b = 0; b < bins; ++b) begin[b + 1] += begin[b];
-    std::vector<KdItem> items(topology.faces.size());
+    FaceItems result;
+    result.items.resize(topology.faces.size());
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
     const float scale = offset_scale(planes);
     for (std::size_t f = 0; f < topology.faces.size(); ++f) {
-        items[next[bin_of[topology.face_components[f]]]++] = dual_of(planes, f, scale);
+        result.items[next[bin_of[topology.face_components[f]]]++] = dual_of(planes, f, scale);
     }
     for (std::uint32_t b = 0; b < bins; ++b) {
         const std::uint32_t count = begin[b + 1] - begin[b];
         if (count == 0) continue;
-        kd_order(std::span(items).subspan(begin[b], count));
+        result.lists.push_back(std::span(result.items).subspan(begin[b], count));
         topology.groups.push_back({begin[b], count, b >= 2});
     }
-    std::vector<std::uint32_t> order(items.size());
-    for (std::size_t i = 0; i < items.size(); ++i) order[i] = items[i].id;
-    return order;
+    return result;
+}
+
+struct EdgeItems {
+    std::vector<KdItem> regular;  // by the middle of their segments
+    std::vector<std::uint32_t> others;
+};
+
+EdgeItems edge_items(const MeshTopology& topology, const FacePlanes& planes) {
+    const float scale = offset_scale(planes);
+    EdgeItems result;
+    result.regular.reserve(topology.edges.size());
+    for (std::size_t e = 0; e < topology.edges.size(); ++e) {
+        const Edge& edge = topology.edges[e];
+        if (!is_regular(topology, edge)) {
+            result.others.push_back(static_cast<std::uint32_t>(e));
+            continue;
+        }
+        const KdItem a = dual_of(planes, topology.uses[edge.first_use].face, scale);
+        const KdItem b = dual_of(planes, topology.uses[edge.first_use + 1].face, scale);
+        KdItem& item = result.regular.emplace_back();
+        for (std::size_t d = 0; d < 4; ++d) item.key[d] = (a.key[d] + b.key[d]) * 0.5F;
+        item.id = static_cast<std::uint32_t>(e);
+    }
+    return result;
 }
 
 template <class T>
 void permute(std::vector<T>& values, std::span<const std::uint32_t> order) {
-    std::vector<T> result(order.size());
+    std::vector<T> result(values.size());
     for (std::size_t i = 0; i < order.size(); ++i) result[i] = values[order[i]];
     values = std::move(result);
 }
 
-void order_faces(MeshTopology& topology, std::span<const std::uint32_t> order) {
-    std::vector<std::uint32_t> place(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<std::uint32_t>(i);
+// `order`: of all faces, by their old places. Padding stays.
+void order_faces(MeshTopology& topology, FacePlanes& planes, std::span<const std::uint32_t> order) {
     permute(topology.faces, order);
     permute(topology.input_faces, order);
     permute(topology.face_components, order);
-    for (FaceUse& use : topology.uses) use.face = place[use.face] & face_mask;
+    for (std::vector<float>* values :
+         {&planes.normal_x, &planes.normal_y, &planes.normal_z, &planes.offset, &planes.error}) {
+        permute(*values, order);
+    }
 }
 
-// Regular edges by the middle of their segments, the others as they come. `planes` are by the
-// faces' old places; `order` leads there.
-void order_edges(MeshTopology& topology, const FacePlanes& planes,
-                 std::span<const std::uint32_t> order) {
-    const float scale = offset_scale(planes);
-    std::vector<KdItem> items;
-    std::vector<std::uint32_t> others;
-    items.reserve(topology.edges.size());
-    for (std::size_t e = 0; e < topology.edges.size(); ++e) {
-        const Edge& edge = topology.edges[e];
-        if (!is_regular(topology, edge)) {
-            others.push_back(static_cast<std::uint32_t>(e));
-            continue;
-        }
-        const KdItem a = dual_of(planes, order[topology.uses[edge.first_use].face], scale);
-        const KdItem b = dual_of(planes, order[topology.uses[edge.first_use + 1].face], scale);
-        KdItem& item = items.emplace_back();
-        for (std::size_t d = 0; d < 4; ++d) item.key[d] = (a.key[d] + b.key[d]) * 0.5F;
-        item.id = static_cast<std::uint32_t>(e);
-    }
-    kd_order(items);
-    topology.regular_edges = items.size();
+// `place`: of each face, by its old one.
+void order_edges(MeshTopology& topology, const EdgeItems& items,
+                 std::span<const std::uint32_t> place) {
+    topology.regular_edges = items.regular.size();
     std::vector<Edge> edges;
     std::vector<FaceUse> uses;
     edges.reserve(topology.edges.size());
@@ -156,11 +171,13 @@ void order_edges(MeshTopology& topology, const FacePlanes& planes,
         const Edge& edge = topology.edges[e];
         edges.push_back(
             {edge.low, edge.high, static_cast<std::uint32_t>(uses.size()), edge.use_count});
-        const auto from = topology.uses.begin() + edge.first_use;
-        uses.insert(uses.end(), from, from + edge.use_count);
+        for (std::uint32_t u = 0; u < edge.use_count; ++u) {
+            FaceUse& use = uses.emplace_back(topology.uses[edge.first_use + u]);
+            use.face = place[use.face] & face_mask;
+        }
     };
-    for (const KdItem& item : items) add(item.id);
-    for (const std::uint32_t e : others) add(e);
+    for (const KdItem& item : items.regular) add(item.id);
+    for (const std::uint32_t e : items.others) add(e);
     topology.edges = std::move(edges);
     topology.uses = std::move(uses);
 }
@@ -182,10 +199,11 @@ void find_face_edges(MeshTopology& topology) {
 
 }  // namespace
 
-MeshTopology connect(std::vector<std::array<std::uint32_t, 3>> faces, std::size_t vertices) {
+MeshTopology connect(std::vector<std::array<std::uint32_t, 3>> faces, std::size_t vertices,
+                     const Jobs& jobs) {
     MeshTopology topology;
     topology.faces = std::move(faces);
-    const std::vector<HalfEdge> half_edges = sorted_half_edges(topology.faces, vertices);
+    const std::vector<HalfEdge> half_edges = sorted_half_edges(topology.faces, vertices, jobs);
     DisjointSets sets(topology.faces.size());
     topology.uses.reserve(half_edges.size());
     for (std::size_t begin = 0; begin < half_edges.size();) {
@@ -218,11 +236,28 @@ MeshTopology connect(std::vector<std::array<std::uint32_t, 3>> faces, std::size_
     return topology;
 }
 
-void order_by_planes(MeshTopology& topology, const FacePlanes& planes,
-                     std::span<const std::uint8_t> closed) {
-    const std::vector<std::uint32_t> order = face_order(topology, planes, closed);
-    order_faces(topology, order);
-    order_edges(topology, planes, order);
+void order_by_planes(MeshTopology& topology, FacePlanes& planes,
+                     std::span<const std::uint8_t> closed, const Jobs& jobs) {
+    FaceItems faces;
+    EdgeItems edges;
+    run_jobs(jobs, 2, [&](std::size_t task) {
+        if (task == 0) edges = edge_items(topology, planes);
+        if (task == 1) faces = face_items(topology, planes, closed);
+    });
+    std::vector<std::span<KdItem>> lists = std::move(faces.lists);
+    lists.emplace_back(edges.regular);
+    kd_order(std::move(lists), jobs);
+
+    std::vector<std::uint32_t> order(faces.items.size());
+    std::vector<std::uint32_t> place(faces.items.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        order[i] = faces.items[i].id;
+        place[order[i]] = static_cast<std::uint32_t>(i);
+    }
+    run_jobs(jobs, 2, [&](std::size_t task) {
+        if (task == 0) order_edges(topology, edges, place);
+        if (task == 1) order_faces(topology, planes, order);
+    });
     find_face_edges(topology);
 }
 

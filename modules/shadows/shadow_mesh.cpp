@@ -8,7 +8,6 @@
 #include <cstring>
 #include <limits>
 #include <string>
-#include <unordered_map>
 
 #include <gnomon/shadows/topology.hpp>
 
@@ -32,22 +31,6 @@ glm::vec3 position_at(const MeshView& view, std::size_t vertex) {
     std::memcpy(&p, view.positions + vertex * view.stride, sizeof p);
     return p + 0.0F;  // -0 becomes +0, so that equal positions have equal bits
 }
-
-struct WeldKey {
-    glm::vec3 position;
-    std::uint32_t identity = 0;
-
-    bool operator==(const WeldKey&) const = default;
-};
-
-struct WeldKeyHash {
-    std::size_t operator()(const WeldKey& key) const {
-        const auto x = std::bit_cast<std::array<std::uint32_t, 3>>(key.position);
-        std::uint64_t h = 0x9E3779B97F4A7C15ULL + key.identity * 0xC2B2AE3D27D4EB4FULL;
-        for (const std::uint32_t word : x) h = (h ^ word) * 0xFF51AFD7ED558CCDULL, h ^= h >> 29U;
-        return static_cast<std::size_t>(h);
-    }
-};
 
 // Six times the signed volume between a surface and a point, as the sum over its faces, with the
 // sum of all magnitudes, which bounds its error (docs/numerics.md, "Facing"). A flat or doubled
@@ -126,28 +109,45 @@ struct Welded {
     std::vector<std::array<std::uint32_t, 3>> faces;
 };
 
-// Only vertices that triangles use, numbered by first use.
+std::uint64_t weld_hash(const glm::vec3& position, std::uint32_t identity) {
+    std::uint64_t h = 0x9E3779B97F4A7C15ULL + identity * 0xC2B2AE3D27D4EB4FULL;
+    for (const std::uint32_t word : std::bit_cast<std::array<std::uint32_t, 3>>(position)) {
+        h = (h ^ word) * 0xFF51AFD7ED558CCDULL;
+        h ^= h >> 29U;
+    }
+    return h;
+}
+
+// Only vertices that triangles use, numbered by first use. The table is of numbers, open, and half
+// empty at least.
 Welded weld(const MeshView& view) {
     constexpr std::uint32_t unknown = std::numeric_limits<std::uint32_t>::max();
     Welded result;
-    std::unordered_map<WeldKey, std::uint32_t, WeldKeyHash> known;
-    known.reserve(view.vertex_count);
+    std::vector<std::uint32_t> known(std::bit_ceil(2 * view.vertex_count + 1), unknown);
+    const auto identity_of = [&](std::uint32_t vertex) {
+        return view.identities.empty() ? 0 : view.identities[vertex];
+    };
+    const auto number_of = [&](std::uint32_t vertex) {
+        const glm::vec3 p = position_at(view, vertex);
+        const std::uint32_t identity = identity_of(vertex);
+        for (std::size_t slot = weld_hash(p, identity);; ++slot) {
+            std::uint32_t& number = known[slot & (known.size() - 1)];
+            if (number == unknown) {
+                number = static_cast<std::uint32_t>(result.positions.size());
+                result.positions.push_back(p);
+                result.sources.push_back(vertex);
+                return number;
+            }
+            if (result.positions[number] == p && identity_of(result.sources[number]) == identity) {
+                return number;
+            }
+        }
+    };
     std::vector<std::uint32_t> welded_of(view.vertex_count, unknown);
     result.faces.resize(view.indices.size() / 3);
     for (std::size_t i = 0; i < view.indices.size(); ++i) {
-        const std::uint32_t vertex = view.indices[i];
-        std::uint32_t& target = welded_of[vertex];
-        if (target == unknown) {
-            const glm::vec3 p = position_at(view, vertex);
-            const WeldKey key{p, view.identities.empty() ? 0 : view.identities[vertex]};
-            const auto [found, inserted] =
-                known.try_emplace(key, static_cast<std::uint32_t>(result.positions.size()));
-            if (inserted) {
-                result.positions.push_back(p);
-                result.sources.push_back(vertex);
-            }
-            target = found->second;
-        }
+        std::uint32_t& target = welded_of[view.indices[i]];
+        if (target == unknown) target = number_of(view.indices[i]);
         result.faces[i / 3][i % 3] = target;
     }
     return result;
@@ -200,16 +200,6 @@ void place(std::vector<Component>& components, std::span<const glm::vec3> positi
     }
 }
 
-// Planes in the order of `order`, and padded.
-void order_planes(FacePlanes& planes, std::span<const std::uint32_t> order) {
-    for (std::vector<float>* values :
-         {&planes.normal_x, &planes.normal_y, &planes.normal_z, &planes.offset, &planes.error}) {
-        std::vector<float> ordered(values->size(), 0.0F);
-        for (std::size_t f = 0; f < order.size(); ++f) ordered[f] = (*values)[order[f]];
-        *values = std::move(ordered);
-    }
-}
-
 }  // namespace
 
 const internal::MeshTopology& internal::topology_of(const ShadowMesh& mesh) {
@@ -254,7 +244,8 @@ void ShadowMesh::find_degenerate_faces() {
     report_.degenerate_faces = degenerate_faces_.size();
 }
 
-Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view) {
+Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view,
+                                                            const Jobs& jobs) {
     if (const Status ok = check(view); !ok) return forward_error(ok);
 
     std::shared_ptr<ShadowMesh> mesh(new ShadowMesh);
@@ -262,14 +253,14 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
     Welded welded = weld(view);
     mesh->positions_ = std::move(welded.positions);
     internal::MeshTopology topology =
-        internal::connect(std::move(welded.faces), mesh->positions_.size());
+        internal::connect(std::move(welded.faces), mesh->positions_.size(), jobs);
     topology.input_vertices = view.vertex_count;
     topology.sources = std::move(welded.sources);
     mesh->components_ = components_of(topology);
     place(mesh->components_, mesh->positions_, topology.faces, topology.face_components);
     mesh->find_bounds();
     mesh->planes_ = internal::make_face_planes(mesh->positions_, topology.faces, mesh->bounds_min_,
-                                               mesh->bounds_max_);
+                                               mesh->bounds_max_, jobs);
 
     MeshReport& report = mesh->report_;
     report.triangles = topology.faces.size();
@@ -287,11 +278,13 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
         closed.push_back(component.closed ? 1 : 0);
     }
 
-    internal::order_by_planes(topology, mesh->planes_, closed);
-    order_planes(mesh->planes_, topology.input_faces);
+    internal::order_by_planes(topology, mesh->planes_, closed, jobs);
     mesh->take(std::make_shared<const internal::MeshTopology>(std::move(topology)));
     mesh->find_degenerate_faces();
-    static_cast<void>(internal::tables_of(*mesh));
+    std::call_once(mesh->tables_once_, [&] {
+        mesh->tables_ =
+            std::make_shared<const internal::DetectionTables>(internal::make_tables(*mesh, jobs));
+    });
     return mesh;
 }
 

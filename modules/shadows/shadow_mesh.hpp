@@ -18,6 +18,7 @@
 #include <glm/glm.hpp>
 
 #include <gnomon/core/result.hpp>
+#include <gnomon/shadows/jobs.hpp>
 
 namespace gnomon::shadows {
 
@@ -119,8 +120,10 @@ class ShadowMesh {
 public:
     /// Fails with ErrorCode::InvalidInput: a position that is not finite, an index out of range, an
     /// index count that is not a multiple of three, identities that are not one a vertex, more than
-    /// 2^30 vertices or 2^27 triangles. Cost: O(n log n), about 100 bytes a triangle.
-    [[nodiscard]] static Result<std::shared_ptr<const ShadowMesh>> build(const MeshView& view);
+    /// 2^30 vertices or 2^27 triangles. Cost: O(n log n), about 100 bytes a triangle. `jobs` runs
+    /// what of it can be done at once, and changes nothing in the mesh.
+    [[nodiscard]] static Result<std::shared_ptr<const ShadowMesh>> build(const MeshView& view,
+                                                                         const Jobs& jobs = {});
 
     /// The same triangles with vertices in other places: of a skinned or morphed mesh, each frame.
     /// `positions` are of the vertices that the mesh was built from, in their order. Vertices that

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -19,6 +20,7 @@
 
 #include <gnomon/shadows/orientation.hpp>
 
+#include "modules/shadows/internal/detection_tables.hpp"
 #include "tests/shadows/random_meshes.hpp"
 
 namespace gnomon::shadows {
@@ -392,6 +394,72 @@ TEST(ShadowMesh, DeformedRefusesOtherVertices) {
     const auto infinite = mesh->deformed(positions);
     ASSERT_FALSE(infinite);
     EXPECT_EQ(infinite.error().message, "Position 5 of the deformed mesh is not finite.");
+}
+
+// All that a mesh holds but its id and what queries search in.
+void expect_same(const ShadowMesh& a, const ShadowMesh& b) {
+    const auto same = [](const auto& x, const auto& y) {
+        return x.size() == y.size() &&
+               (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0);
+    };
+    EXPECT_TRUE(same(a.positions(), b.positions()));
+    EXPECT_TRUE(same(a.faces(), b.faces()));
+    EXPECT_TRUE(same(a.input_faces(), b.input_faces()));
+    EXPECT_TRUE(same(a.edges(), b.edges()));
+    EXPECT_TRUE(same(a.uses(), b.uses()));
+    EXPECT_TRUE(same(a.face_edges(), b.face_edges()));
+    EXPECT_TRUE(same(a.face_components(), b.face_components()));
+    EXPECT_TRUE(same(a.degenerate_faces(), b.degenerate_faces()));
+    EXPECT_TRUE(same(a.planes().normal_x, b.planes().normal_x));
+    EXPECT_TRUE(same(a.planes().normal_y, b.planes().normal_y));
+    EXPECT_TRUE(same(a.planes().normal_z, b.planes().normal_z));
+    EXPECT_TRUE(same(a.planes().offset, b.planes().offset));
+    EXPECT_TRUE(same(a.planes().error, b.planes().error));
+    EXPECT_EQ(a.planes().origin, b.planes().origin);
+    EXPECT_EQ(a.regular_edges(), b.regular_edges());
+    EXPECT_EQ(a.bounds_min(), b.bounds_min());
+    EXPECT_EQ(a.bounds_max(), b.bounds_max());
+    EXPECT_EQ(a.memory_bytes(), b.memory_bytes());
+    ASSERT_EQ(a.components().size(), b.components().size());
+    for (std::size_t i = 0; i < a.components().size(); ++i) {
+        EXPECT_EQ(a.components()[i].faces, b.components()[i].faces);
+        EXPECT_EQ(a.components()[i].closed, b.components()[i].closed);
+        EXPECT_EQ(a.components()[i].inside_out, b.components()[i].inside_out);
+        EXPECT_EQ(a.components()[i].degenerate_faces, b.components()[i].degenerate_faces);
+    }
+    const internal::DetectionTables& ours = internal::tables_of(a);
+    const internal::DetectionTables& theirs = internal::tables_of(b);
+    EXPECT_TRUE(ours.faces == theirs.faces);
+    EXPECT_TRUE(ours.edges == theirs.edges);
+}
+
+// Threads, and a runner that takes the tasks backwards: what they make is the same in every bit.
+// Meshes of which all is cut into tasks, and small ones.
+TEST(ShadowMesh, IsTheSameWhoeverRunsTheTasks) {
+    GNOMON_RANDOM(random);
+    std::size_t tasks = 0;
+    const std::vector<Jobs> runners{
+        thread_jobs(3), [&](std::size_t count, const std::function<void(std::size_t)>& task) {
+            tasks += count;
+            for (std::size_t i = count; i-- > 0;) task(i);
+        }};
+    std::vector<Triangles> meshes{
+        merged(test::sphere(180, 230), merged(test::sheet(150), test::book(5))), {}};
+    for (int i = 0; i < 50; ++i) meshes.push_back(test::random_mesh(random));
+    for (const Triangles& triangles : meshes) {
+        const MeshView view{
+            .positions = reinterpret_cast<const std::byte*>(triangles.positions.data()),
+            .vertex_count = triangles.positions.size(),
+            .indices = triangles.indices};
+        const auto alone = ShadowMesh::build(view);
+        ASSERT_TRUE(alone.has_value());
+        for (const Jobs& jobs : runners) {
+            const auto shared = ShadowMesh::build(view, jobs);
+            ASSERT_TRUE(shared.has_value());
+            expect_same(**alone, **shared);
+        }
+    }
+    EXPECT_GT(tasks, 20U);
 }
 
 TEST(ShadowMesh, EveryMeshHasAnIdOfItsOwn) {

@@ -3,6 +3,8 @@
 // What detectors search in, made once a mesh.
 #pragma once
 
+#include <gnomon/shadows/jobs.hpp>
+
 #include "dual_boxes.hpp"
 
 namespace gnomon::shadows::internal {
@@ -12,6 +14,6 @@ struct DetectionTables {
     DualBoxes edges;  ///< blocks of 16 regular edges
 };
 
-[[nodiscard]] DetectionTables make_tables(const ShadowMesh& mesh);
+[[nodiscard]] DetectionTables make_tables(const ShadowMesh& mesh, const Jobs& jobs = {});
 
 }  // namespace gnomon::shadows::internal

@@ -33,6 +33,8 @@ struct BoxNode {
     std::array<std::array<float, boxes_per_node>, 4> center{};
     std::array<std::array<float, boxes_per_node>, 4> half{};
     std::array<float, boxes_per_node> error{};
+
+    bool operator==(const BoxNode&) const = default;
 };
 
 /// What a hyperplane does to the eight boxes of a node, one bit each. Neither: it may cross.
@@ -66,6 +68,8 @@ public:
     DualBoxes() = default;
     /// `blocks`: the bounds of items 16 k .. 16 k + 15.
     explicit DualBoxes(std::vector<DualBounds> blocks);
+
+    bool operator==(const DualBoxes&) const = default;
 
     [[nodiscard]] std::size_t memory_bytes() const;
 

@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include <gnomon/shadows/jobs.hpp>
 #include <gnomon/shadows/shadow_mesh.hpp>
 
 namespace gnomon::shadows::internal {
@@ -32,6 +33,7 @@ inline bool is_degenerate(const FacePlanes& planes, std::size_t face) {
 /// One plane a face. Cost: linear; exact arithmetic for faces that are all but degenerate.
 [[nodiscard]] FacePlanes make_face_planes(std::span<const glm::vec3> positions,
                                           std::span<const std::array<std::uint32_t, 3>> faces,
-                                          const glm::vec3& bounds_min, const glm::vec3& bounds_max);
+                                          const glm::vec3& bounds_min, const glm::vec3& bounds_max,
+                                          const Jobs& jobs = {});
 
 }  // namespace gnomon::shadows::internal

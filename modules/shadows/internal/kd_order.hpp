@@ -8,6 +8,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
+
+#include <gnomon/shadows/jobs.hpp>
 
 namespace gnomon::shadows::internal {
 
@@ -19,5 +22,7 @@ struct KdItem {
 /// Sorts in place. Whatever lies in blocks of 16 items from the start, and in blocks of 16 * 2^k,
 /// is close together. Deterministic. Cost: O(n log n), some 60 ns an item for a million.
 void kd_order(std::span<KdItem> items);
+/// Sorts each of the lists, with the same result whoever runs the tasks.
+void kd_order(std::vector<std::span<KdItem>> lists, const Jobs& jobs);
 
 }  // namespace gnomon::shadows::internal

@@ -12,6 +12,7 @@
 
 #include <glm/glm.hpp>
 
+#include <gnomon/shadows/jobs.hpp>
 #include <gnomon/shadows/shadow_mesh.hpp>
 
 namespace gnomon::shadows::internal {
@@ -43,12 +44,12 @@ struct MeshTopology {
 /// Faces and edges in the order of the input and of their vertices; no groups yet. `faces` are
 /// triples of welded vertices.
 [[nodiscard]] MeshTopology connect(std::vector<std::array<std::uint32_t, 3>> faces,
-                                   std::size_t vertices);
+                                   std::size_t vertices, const Jobs& jobs = {});
 
 /// Brings faces and edges into an order in which neighbours have similar planes, which the tables
-/// of detection are made from, and makes face_edges and groups. `planes`: of the faces as they are;
-/// `closed`: by component. Cost: O(n log n).
-void order_by_planes(MeshTopology& topology, const FacePlanes& planes,
-                     std::span<const std::uint8_t> closed);
+/// of detection are made from, and makes face_edges and groups. `planes`: of the faces as they are,
+/// and brought into their order; `closed`: by component. Cost: O(n log n).
+void order_by_planes(MeshTopology& topology, FacePlanes& planes,
+                     std::span<const std::uint8_t> closed, const Jobs& jobs = {});
 
 }  // namespace gnomon::shadows::internal
