@@ -17,6 +17,7 @@
 #include "tests/rows/rows.hpp"
 #include "tests/rows/stage.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/support/share.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -65,7 +66,9 @@ protected:
 
 TEST_P(Caps, as_ranges_give_the_bytes_of_caps_written_out) {
     std::size_t ranges = 0;
-    for (const Row& row : rows()) {
+    for (std::size_t i = 0; i < rows().size(); ++i) {
+        if (!falls_to(number(), i, 2)) continue;
+        const Row& row = rows()[i];
         const Setting setting = row.make();
         const PictureOptions options{.cull_back_faces = row.cull_back_faces};
         ranges += expect_same(setting, options, row.name);
@@ -74,7 +77,9 @@ TEST_P(Caps, as_ranges_give_the_bytes_of_caps_written_out) {
 }
 
 TEST_P(Caps, as_ranges_give_them_at_four_samples_and_by_depth_fail) {
-    for (const Row& row : rows()) {
+    for (std::size_t i = 0; i < rows().size(); ++i) {
+        if (!falls_to(number(), i, 3)) continue;
+        const Row& row = rows()[i];
         const PictureOptions options{.samples = 4,
                                      .technique = Technique::DepthFail,
                                      .cull_back_faces = row.cull_back_faces};
@@ -134,6 +139,7 @@ TEST_P(Caps, of_random_meshes_give_the_same_bytes_every_way) {
     for (int i = 0; i < 16; ++i) {
         const bool orthographic = i % 4 == 3 && features().unclipped_depth;
         const Setting setting = random_setting(random, orthographic);
+        if (!falls_to(number(), static_cast<std::size_t>(i / 2), 2)) continue;
         PictureOptions options{
             .width = 160,
             .height = 120,
@@ -145,7 +151,7 @@ TEST_P(Caps, of_random_meshes_give_the_same_bytes_every_way) {
         if (i % 3 == 1) options.averted_faces = shadow_pass::AvertedFaces::LeftToShading;
         ranges += expect_same(setting, options, fmt::format("random{}", i));
     }
-    EXPECT_GT(ranges, 1000U);
+    EXPECT_GT(ranges, 500U);
 }
 
 // Shells within each other in one mesh, more than a stencil counts.
@@ -169,6 +175,7 @@ TEST_P(Caps, of_split_volumes_give_the_same_bytes) {
     s.look({0.5, 3.5, 4.5}, {0.0, 0.2, 0.0});
     const Setting setting = s.finish();
     for (const std::uint32_t samples : {1U, 4U}) {
+        if (!falls_to(number(), samples == 1 ? 0 : 1, 2)) continue;
         const PictureOptions options{
             .width = 160, .height = 120, .samples = samples, .technique = Technique::DepthFail};
         EXPECT_GT(expect_same(setting, options, fmt::format("shells.{}", samples)), 300U);

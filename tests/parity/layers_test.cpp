@@ -20,6 +20,7 @@
 #include "tests/rows/picture.hpp"
 #include "tests/rows/rows.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/support/share.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -153,8 +154,11 @@ protected:
 
     // `make(1)` is the shape of the pile's shadow.
     void expect_one_shadow(Heap (*make)(int), const std::vector<int>& counts) {
+        std::size_t combination = 0;
         for (const std::uint32_t samples : {1U, 4U}) {
             for (const Technique technique : {Technique::DepthPass, Technique::DepthFail}) {
+                // Of two devices next to each other one takes the first and the last.
+                if (!falls_to(number(), (combination++ + 1) / 2, 2)) continue;
                 const Picture one = take(setting_of(make(1)), samples, technique);
                 for (const int count : counts) {
                     const Heap heap = make(count);
@@ -220,6 +224,17 @@ protected:
         return sides;
     }
 
+    // On one of every two devices, another one for the next row.
+    static void compare_on_some(std::size_t first, std::uint32_t limit, std::uint32_t samples) {
+        const auto row = std::ranges::find(rows(), GetParam().name, &Row::name) - rows().begin();
+        const std::vector<DeviceCase> devices = drawing_devices();
+        for (std::size_t d = 0; d < devices.size(); ++d) {
+            if (falls_to(d, first + static_cast<std::size_t>(row), 2)) {
+                compare(devices[d], limit, samples);
+            }
+        }
+    }
+
     // Masks of the row in batches of a few layers against those of the row as it is.
     static void compare(const DeviceCase& device_case, std::uint32_t limit, std::uint32_t samples) {
         const auto device = shared_device(device_case);
@@ -258,13 +273,9 @@ protected:
     }
 };
 
-TEST_P(SplitRow, batches_of_a_few_layers_give_the_same_mask) {
-    for (const DeviceCase& device_case : drawing_devices()) compare(device_case, 8, 4);
-}
+TEST_P(SplitRow, batches_of_a_few_layers_give_the_same_mask) { compare_on_some(0, 8, 4); }
 
-TEST_P(SplitRow, batches_of_two_layers_give_the_same_mask) {
-    for (const DeviceCase& device_case : drawing_devices()) compare(device_case, 2, 1);
-}
+TEST_P(SplitRow, batches_of_two_layers_give_the_same_mask) { compare_on_some(1, 2, 1); }
 
 INSTANTIATE_TEST_SUITE_P(Rows, SplitRow, testing::ValuesIn(rows()),
                          [](const auto& param) { return param.param.name; });

@@ -3,6 +3,7 @@
 
 #include <gnomon/gpu/null_backend.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <string_view>
@@ -150,6 +151,12 @@ bool is_required(const std::string& device_name) {
         rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
     }
     return false;
+}
+
+std::size_t DeviceTest::number() const {
+    const std::vector<DeviceCase> cases = all_devices();
+    const auto found = std::ranges::find(cases, GetParam().name, &DeviceCase::name);
+    return static_cast<std::size_t>(found - cases.begin());
 }
 
 void DeviceTest::SetUp() {

@@ -62,6 +62,8 @@ protected:
     void TearDown() override;
 
     [[nodiscard]] gpu::Device& device() { return shared_->device; }
+    /// Its place among all_devices(): which share of many combinations falls to it (share.hpp).
+    [[nodiscard]] std::size_t number() const;
     [[nodiscard]] MessageLog& log() { return *shared_->log; }
     [[nodiscard]] const gpu::Features& features() { return device().caps().features; }
 
