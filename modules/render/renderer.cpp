@@ -265,7 +265,10 @@ Status Renderer::State::record_masks(const FrameInput& input, std::size_t round)
     for (std::size_t i = 0; i < of_round.size(); ++i) {
         if (!of_round[i].draws) continue;
         const std::size_t light = *of_round[i].draws;
-        const bool any = input.shadows.lights[light].count > 0;
+        // Nothing counts outside of what the light's volumes can change.
+        const shadows::PixelRect changed =
+            shadows::pixels_of(input.shadows.lights[light].bounds, desc.width, desc.height);
+        const bool any = input.shadows.lights[light].count > 0 && changed.width > 0;
         if (any) shadows->record(*pass, light);
         if (input.after_light) {
             pass.reset();
@@ -283,7 +286,9 @@ Status Renderer::State::record_masks(const FrameInput& input, std::size_t round)
         pass->set_pipeline(keep ? pipelines.mask_kept : pipelines.mask);
         pass->set_stencil_reference(0);
         pass->set_blend_constant({bit, bit, bit, bit});
+        pass->set_scissor_rect(changed.x, changed.y, changed.width, changed.height);
         pass->draw(3);
+        pass->set_scissor_rect(0, 0, desc.width, desc.height);
     }
     return {};
 }
