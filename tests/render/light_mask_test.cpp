@@ -36,7 +36,7 @@ Frame draw(gpu::Device& device, const Setting& setting, std::uint32_t samples,
     auto renderer = must(render::Renderer::create(
         device, {.width = row_width, .height = row_height, .sample_count = samples}));
     must(renderer.upload(setting.scene));
-    auto system = must(shadows::ShadowSystem::create());
+    auto system = must(shadows::ShadowSystem::create({.fill = shadows::FillOptions::none()}));
     scene::ShadowAdapter adapter;
     auto frame = system.begin_frame();
     const render::LightChoice none =
