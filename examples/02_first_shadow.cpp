@@ -47,7 +47,7 @@ Status first_shadow() {
     if (const Status uploaded = renderer->upload(scene); !uploaded) return uploaded;
 
     // A frame: casters and lights go in, a list of shadow volumes comes out, the renderer draws it.
-    auto system = shadows::ShadowSystem::create();
+    auto system = shadows::ShadowSystem::create({.receivers = shadows::Receivers::Submitted});
     if (!system) return forward_error(system);
     auto frame = system->begin_frame();
     scene::ShadowAdapter adapter;
