@@ -86,6 +86,11 @@ void ShadowPass::State::record(gpu::RenderPassEncoder& encoder, std::size_t ligh
         s.fold->fold(encoder);
         s.fold->finish(encoder);
     }
+    if (of_light.clear_background && !metered) {
+        State::set_scissor(encoder, s.scissor_of(of_light.bounds), scissor);
+        s.background->record(encoder);
+        State::set_scissor(encoder, s.everything(), scissor);
+    }
     encoder.pop_debug_group();
 }
 

@@ -88,6 +88,13 @@ Status ShadowPass::State::create_batching() {
     return {};
 }
 
+Status ShadowPass::State::create_background() {
+    auto made = internal::BackgroundClear::create(*device, desc);
+    if (!made) return forward_error(made);
+    background.emplace(std::move(*made));
+    return {};
+}
+
 // What the quads of this list need and was not needed before.
 Status ShadowPass::State::create_quads(const shadows::DrawList& list) {
     for (const shadows::LightDraws& light : list.lights) {
@@ -302,6 +309,12 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
     if (s.quads) s.quads->free_unused(s.generation);
     if (const Status created = s.create_quads(list); !created) return created;
     for (const shadows::LightDraws& light : list.lights) {
+        if (light.clear_background) {
+            if (!s.background) {
+                if (const Status created = s.create_background(); !created) return created;
+            }
+            ++s.stats.draw_calls;
+        }
         if (light.batches <= 1) continue;
         if (!s.fold) {
             if (const Status created = s.create_batching(); !created) return created;

@@ -140,9 +140,10 @@ public:
     /// its depth buffer is read, not written. Afterwards the stencil is 0 where the light arrives;
     /// elsewhere it is the count, or 255 where the light's volumes come in several batches
     /// (LightDraws::batches). Those are folded in place, by draws that cover the viewport: one a
-    /// batch and one more. Leaves pipeline, bind groups 0 and 1, vertex slot 0, index buffer,
-    /// stencil reference and, where prepare() was told the target's size, the scissor changed: it
-    /// covers the target.
+    /// batch and one more. Where volumes end (LightDraws::clear_background), one more draw sets the
+    /// stencil to 0 where depth is what it was cleared to. Leaves pipeline, bind groups 0 and 1,
+    /// vertex slot 0, index buffer, stencil reference and, where prepare() was told the target's
+    /// size, the scissor changed: it covers the target.
     void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
 
     /// Draws what record() draws, the same triangles under the same scissors, so that the samples

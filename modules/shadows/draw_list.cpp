@@ -346,15 +346,22 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
         differs = true;
     }
     const auto choose = [&] {
+        // More faces would cost more to look at than depth-fail costs to draw.
+        constexpr std::size_t most_faces = 512;
         const bool valid = clip.is_clear_of_sphere(caster.center, caster.radius) ||
-                           clip.is_clear_of(bounds_of(caster));
+                           clip.is_clear_of(bounds_of(caster)) ||
+                           (caster.mesh->faces().size() <= most_faces &&
+                            clip.is_clear_of(*caster.mesh, caster.pose.world_from_local));
         return valid ? Technique::DepthPass : Technique::DepthFail;
     };
     const Technique technique = options.force_technique ? *options.force_technique : choose();
     differs = differs || technique != draw.technique;
     draw.technique = origin.technique = technique;
-    // At infinity a far cap is in front of nothing; a finite one closes the volume for depth-pass.
-    draw.far_caps = technique == Technique::DepthFail || draw.extrusion.offset.w != 0.0F;
+    // At infinity a far cap is in front of nothing, and neither is one behind all that can be seen.
+    // Any other closes the volume for depth-pass.
+    const bool behind_all = reaches.plane_is_last && screen->begins_below(reaches.normal, plane);
+    draw.far_caps =
+        technique == Technique::DepthFail || (draw.extrusion.offset.w != 0.0F && !behind_all);
     ScreenBounds bounds;
     if (!caster.pose.singular) {
         if (hidden_by(fill_terms(), hull, reaches) != internal::Hidden::No) {
@@ -383,9 +390,16 @@ void ShadowSystem::State::count_draws() {
         const LightState& light = lights[listed[e]];
         ScreenBounds& bounds = list.lights[e].bounds;
         bounds = ScreenBounds::nothing();
+        bool any_clamped = false;
+        bool any_other = view->projection != ProjectionKind::InfinitePerspective;
         for (std::uint32_t i = light.first; i < light.first + light.count; ++i) {
-            bounds = united(bounds, list.draws[i].bounds);
+            const VolumeDraw& draw = list.draws[i];
+            bounds = united(bounds, draw.bounds);
+            const bool clamped = origins[i].reach.clamped;
+            any_clamped = any_clamped || clamped;
+            any_other = any_other || !clamped || !draw.far_caps;
         }
+        list.lights[e].clear_background = any_clamped && any_other;
         stats.stencil_batches += light.count > 0 ? light.memory.batches : 0;
         stats.split_lights += light.pieces.empty() ? 0 : 1;
     }

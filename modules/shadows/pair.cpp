@@ -6,7 +6,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -95,16 +94,6 @@ SilhouetteDetector& detector_of(PairState& pair, const SilhouetteStrategy& strat
     return *scratch.detectors.emplace_back(&strategy, strategy.create()).second;
 }
 
-// A fan has a triangle for each silhouette edge, long ones across the whole cap: faces are better
-// where they are not many more.
-FarCap flat_cap(std::span<const FaceRun> casting, std::size_t silhouette_edges) {
-    std::uint64_t faces = 0;
-    for (const FaceRun& run : casting) {
-        faces += run.count * static_cast<std::uint64_t>(std::abs(run.weight));
-    }
-    return faces > 2 * silhouette_edges ? FarCap::Fan : FarCap::Faces;
-}
-
 // `same_kind`: the volume that the pair has was made on the same terms, for another light. `volume`
 // is null where that is empty.
 void detect(PairState& pair, const CasterState& caster, const LightState& light,
@@ -134,12 +123,11 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
     }
     const bool same = same_kind && by_its_own && pair.extra->detector_is_current &&
                       !found.changed && volume != nullptr &&
-                      (on_plane || volume->made_with.caps.far_cap == options.caps.far_cap);
+                      volume->made_with.caps.far_cap == options.caps.far_cap;
     if (pair.extra != nullptr) pair.extra->detector_is_current = by_its_own;
     if (!same) {
         auto made = std::make_shared<Volume>();
         runs_of(found.casting, scratch.runs);
-        if (on_plane) options.caps.far_cap = flat_cap(scratch.runs, found.silhouette.size());
         build_volume(mesh, scratch.runs, found.silhouette, options, *made, found.solid_averted);
         work.made = std::move(made);
         work.quads = nullptr;

@@ -109,6 +109,10 @@ Reach reach_of(const ShadowHull& hull, const ReceiverTree* receivers, const Fill
         reach.distance = distance;
         reach.margin = std::max(1e-3 * (distance - caster.low), 1e-5 * size);
     });
+    if (reach.clamped) {
+        reach.plane_is_last =
+            receivers->empty() || support(receivers->bounds(), reach.normal) <= reach.distance;
+    }
     return reach;
 }
 
@@ -141,11 +145,17 @@ Screen::Screen(const View& view) : eye_(glm::inverse(view.view_from_world)[3]) {
     rotation[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
     clip_from_world_ = view.clip_from_view * rotation;
     nearest_ = infinity;
-    for (const glm::dvec3& corner : near_corners(view)) {
+    near_ = near_corners(view);
+    for (const glm::dvec3& corner : near_) {
         const glm::dvec4 clip = clip_from_world_ * glm::dvec4(corner - eye_, 1.0);
         nearest_ = std::min(nearest_, clip.w);
     }
     nearest_ *= 0.999;
+}
+
+bool Screen::begins_below(const glm::dvec3& normal, double distance) const {
+    return std::ranges::all_of(near_,
+                               [&](const auto& p) { return glm::dot(normal, p) < distance; });
 }
 
 ScreenBounds Screen::of(std::span<const glm::dvec4> points) const {

@@ -110,6 +110,9 @@ struct LightDraws {
     /// a point is in shadow where any batch counts.
     std::uint32_t batches = 1;
     ScreenBounds bounds = {};  ///< of all its volumes together
+    /// Some of its volumes end behind the last receiver, openly perhaps, others may not: where no
+    /// surface is at all, counts mean nothing, and whoever draws them sets them to 0.
+    bool clear_background = false;
 };
 
 struct FrameStats {
@@ -226,8 +229,9 @@ public:
         /// finish(); copy it to keep it. Cost: nothing where no submission differed from the last
         /// and the view is the same to the bit (one look at what had changed before, once); else
         /// some microseconds for each pair whose caster or light changed, some hundred nanoseconds
-        /// for each draw where the view did, and a pass over the draws where some came or went.
-        /// Allocates nothing where nothing changed.
+        /// for each draw where the view did, or microseconds where its bounds may shadow the eye,
+        /// and a pass over the draws where some came or went. Allocates nothing where nothing
+        /// changed.
         [[nodiscard]] const DrawList& finish(const View& view) &&;
 
     private:

@@ -141,6 +141,29 @@ bool NearClip::is_clear_of(const OrientedBounds& bounds) const {
     return false;
 }
 
+bool NearClip::is_clear_of(const ShadowMesh& mesh, const glm::dmat4& world_from_local) const {
+    if (!finite_) return false;
+    const auto positions = mesh.positions();
+    const auto place = [&](std::uint32_t v) {
+        return glm::dvec3(world_from_local * glm::dvec4(glm::dvec3(positions[v]), 1.0)) - eye_;
+    };
+    return std::ranges::all_of(mesh.faces(), [&](const auto& face) {
+        const std::array<glm::dvec3, 3> corners{place(face[0]), place(face[1]), place(face[2])};
+        double reach = 0.0;
+        for (const glm::dvec3& corner : corners) reach = std::max(reach, glm::length(corner));
+        const double slack = 1e-6 * reach;
+        if (!std::isfinite(slack)) return false;
+        const auto is_beyond = [&](const Side& side) {
+            const Extent e = project(corners, side.normal);
+            return side.low > e.high + slack || e.low > side.high + slack;
+        };
+        if (std::any_of(sides_.begin(), sides_.begin() + side_count_, is_beyond)) return true;
+        const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double length = glm::length(normal);
+        return length > 0.0 && is_beyond(extent_along(normal / length));
+    });
+}
+
 }  // namespace internal
 
 bool depth_pass_is_valid(const OrientedBounds& bounds, const glm::dvec4& light_world,

@@ -71,13 +71,18 @@ TEST_F(Fill, VolumesEndBehindTheGround) {
     EXPECT_EQ(list.stats.pairs_clamped, 5U);
     for (const VolumeDraw& draw : list.draws) {
         EXPECT_EQ(draw.volume->made_with.far_vertices, FarVertices::OnPlane);
-        EXPECT_TRUE(draw.far_caps);
+        EXPECT_FALSE(draw.far_caps) << "seen from above, nothing lies behind them";
         for (const glm::vec3& p : draw.mesh->positions()) {
             const glm::dvec4 far = draw.world_from_far * glm::dvec4(glm::dvec3(p), 1.0);
             EXPECT_LT(far.y / far.w, -0.1);
             EXPECT_GT(far.y / far.w, -0.2);
         }
     }
+    EXPECT_TRUE(list.lights[0].clear_background);
+    // From below the ground they would be in front of it.
+    const DrawList& below = frame(system, looking({0, -8, 30}, {0, 0, 0}));
+    EXPECT_FALSE(below.lights[0].clear_background) << "all have ends";
+    for (const VolumeDraw& draw : below.draws) EXPECT_TRUE(draw.far_caps);
     ShadowSystem plain = make(FillOptions::none());
     EXPECT_EQ(frame(plain, all_).stats.pairs_clamped, 0U);
     EXPECT_EQ(frame(plain, all_).draws[0].bounds, ScreenBounds{});

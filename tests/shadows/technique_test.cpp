@@ -189,6 +189,53 @@ TEST(Technique, ASphereIsClearOnlyWhereAllThatItHoldsIs) {
     EXPECT_GT(told_by_sphere, clear / 2);
 }
 
+// Whether the way from r to the light passes a face; not where it all but runs along an edge.
+bool passes(const ShadowMesh& mesh, const glm::dmat4& pose, const glm::dvec4& light,
+            const glm::dvec3& r) {
+    const glm::dvec3 way = light.w == 0.0 ? glm::dvec3(light) : glm::dvec3(light) - r;
+    return std::ranges::any_of(mesh.faces(), [&](const auto& face) {
+        std::array<glm::dvec3, 3> d;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3 p(mesh.positions()[face[i]]);
+            d[i] = glm::dvec3(pose * glm::dvec4(p, 1.0)) - r;
+        }
+        const double side = glm::dot(way, glm::cross(d[0], d[1]));
+        if (side * glm::dot(way, glm::cross(d[1], d[2])) <= 0.0) return false;
+        if (side * glm::dot(way, glm::cross(d[2], d[0])) <= 0.0) return false;
+        const glm::dvec3 n = glm::cross(d[1] - d[0], d[2] - d[0]);
+        const double along = glm::dot(n, d[0]) / glm::dot(n, way);
+        return along > 0.0 && (light.w == 0.0 || along < 1.0);
+    });
+}
+
+TEST(Technique, AMeshIsClearOnlyWhereNoFaceShadowsTheNearRectangle) {
+    GNOMON_RANDOM(random);
+    int clear = 0;
+    int clear_within_bounds = 0;
+    int shadowed = 0;
+    for (int i = 0; i < 12'000; ++i) {
+        Situation s = random_situation(random);
+        const auto mesh = test::build(test::random_mesh(random));
+        s.bounds.min = glm::dvec3(mesh->bounds_min());
+        s.bounds.max = glm::dvec3(mesh->bounds_max());
+        const internal::NearClip clip(s.light, s.view);
+        const bool is_clear = clip.is_clear_of(*mesh, s.bounds.world_from_local);
+        clear += is_clear ? 1 : 0;
+        clear_within_bounds += is_clear && !clip.is_clear_of(s.bounds) ? 1 : 0;
+        const auto corners = near_corners(s.view);
+        for (int point = 0; point < 30; ++point) {
+            const glm::dvec3 r =
+                on_near_rectangle(corners, random.uniform(0, 1), random.uniform(0, 1));
+            if (!passes(*mesh, s.bounds.world_from_local, s.light, r)) continue;
+            ++shadowed;
+            ASSERT_FALSE(is_clear) << "situation " << i;
+        }
+    }
+    EXPECT_GT(clear, 1'000);
+    EXPECT_GT(clear_within_bounds, 200);
+    EXPECT_GT(shadowed, 1'000);
+}
+
 TEST(Technique, SweepsThroughAShadowsSideInSmallSteps) {
     // A unit box under a sun straight above; the eye below it walks out of the shadow.
     OrientedBounds box{glm::dmat4(1.0), glm::dvec3(-0.5), glm::dvec3(0.5)};

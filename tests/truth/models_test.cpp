@@ -74,15 +74,8 @@ struct KnownDifference {
 // Mesa 22.3 culls clipped triangles by their area in floating point and the rest by their area on
 // the sub-pixel grid. A sliver that the two see from different sides is drawn by neither pass of
 // the two-pass path.
-constexpr std::array<KnownDifference, 8> known_differences{{
-    {"gl_osmesa_two_pass", "manifold-offset-1.glb"},
-    {"gl_osmesa_two_pass", "dutch-ship.glb"},
-    {"gl_osmesa_two_pass", "dream-apartment.glb"},
-    {"gl_osmesa_two_pass", "duplex-house.glb"},
-    {"gl_osmesa_two_pass", "kenney-city.glb"},
-    {"gl_osmesa_two_pass", "lantern-lights.glb"},
-    {"gl_osmesa_two_pass", "tps-level-lights.glb"},
-    {"gl_osmesa_two_pass", "zdm2-map.glb"},
+constexpr std::array<KnownDifference, 1> known_differences{{
+    {"gl_osmesa_two_pass", "flight-helmet.glb"},
 }};
 
 bool is_known(const std::string& device, const std::filesystem::path& file) {

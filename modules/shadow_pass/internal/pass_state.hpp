@@ -13,6 +13,7 @@
 
 #include <gnomon/shadow_pass/shadow_pass.hpp>
 
+#include "background_clear.hpp"
 #include "gpu_quads.hpp"
 #include "index_arena.hpp"
 #include "mesh_caps.hpp"
@@ -36,6 +37,8 @@ struct ShadowPass::State {
     std::optional<internal::PipelineSets> pipelines;
     // What lights that are split into batches need more, made when the first one comes.
     std::optional<internal::StencilFold> fold;
+    // What lights whose background is cleared need more, made when the first one comes.
+    std::optional<internal::BackgroundClear> background;
     // What volumes from quads on every edge need, made when the first one comes.
     std::optional<internal::GpuQuads> quads;
     std::uint32_t uniform_stride = 256;
@@ -93,6 +96,7 @@ struct ShadowPass::State {
     [[nodiscard]] VertexStage volume_stage() const { return {{layout}, vertex, {vertex_layout()}}; }
     Status create_quads(const shadows::DrawList& list);
     Status create_batching();
+    Status create_background();
     [[nodiscard]] gpu::VertexBufferLayout vertex_layout() const;
     Status write_uniforms(const shadows::DrawList& list, const shadows::View& view);
     Result<gpu::BufferId> vertices_of(const shadows::ShadowMesh& mesh);

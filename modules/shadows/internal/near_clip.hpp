@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include <gnomon/shadows/shadow_mesh.hpp>
 #include <gnomon/shadows/technique.hpp>
 #include <gnomon/shadows/view.hpp>
 
@@ -21,6 +22,10 @@ public:
     /// depth_pass_is_valid(). Cost: some hundred flops, and some thousand where nothing separates
     /// the two.
     [[nodiscard]] bool is_clear_of(const OrientedBounds& bounds) const;
+    /// The same of a mesh's faces, one by one: true for many a caster whose bounds are not clear,
+    /// in a room above all. Cost: some dozen flops a face, until the first that is not.
+    [[nodiscard]] bool is_clear_of(const ShadowMesh& mesh,
+                                   const glm::dmat4& world_from_local) const;
     /// The same for all that a sphere in the world may hold; true for most that are not near the
     /// volume. Cost: some dozen flops.
     [[nodiscard]] bool is_clear_of_sphere(const glm::dvec3& center, double radius) const;

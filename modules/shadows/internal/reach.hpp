@@ -4,6 +4,7 @@
 // picture it can change, from one place.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -24,6 +25,8 @@ struct Reach {
     bool any = true;  ///< a receiver, or receivers are not known
     /// Far vertices go onto a plane, else to infinity: whatever receivers there are.
     bool clamped = false;
+    /// No receiver at all lies beyond the plane.
+    bool plane_is_last = false;
     /// The plane: dot(normal, p) = distance + margin; the light and the caster lie below. Unit
     /// length.
     glm::dvec3 normal{0.0};
@@ -60,6 +63,8 @@ public:
     explicit Screen(const View& view);
 
     [[nodiscard]] const glm::dvec3& eye() const { return eye_; }
+    /// Whether all that is seen is seen from below a plane: the near rectangle lies there.
+    [[nodiscard]] bool begins_below(const glm::dvec3& normal, double distance) const;
     /// What a shadow can change: where it lies, and receivers do. `plane` as plane_distance() has
     /// it. Cost: some hundred flops, some thousand where the eye's plane cuts it.
     [[nodiscard]] ScreenBounds of(const ShadowHull& hull, const Reach& reach, double plane) const;
@@ -71,6 +76,7 @@ private:
 
     glm::dmat4 clip_from_world_;  // relative to the eye
     glm::dvec3 eye_{0.0};
+    std::array<glm::dvec3, 4> near_{};
     double nearest_ = 0.0;  // w of what is on the near plane
 };
 
