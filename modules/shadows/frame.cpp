@@ -225,8 +225,7 @@ void ShadowSystem::State::take_up_deferred() {
     std::erase_if(deferred, [&](const auto& place) {
         const auto [l, c] = place;
         if (c >= lights[l].pairs.size()) return true;
-        const Reason reason = lights[l].pairs[c].reason;
-        return reason != Reason::OutOfView && reason != Reason::ReachesNothing;
+        return !waits(lights[l].pairs[c].reason);
     });
     for (const auto& [l, c] : deferred) {
         if (lights[l].changed || casters[c].changed) continue;  // has been taken up

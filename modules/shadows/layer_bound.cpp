@@ -154,9 +154,8 @@ public:
         const auto bin = [&](double x) {
             return std::clamp(static_cast<int>((x - low_) * scale_), 0, bins - 1);
         };
-        const double room = 1e-3 / scale_;
-        starts_[static_cast<std::size_t>(bin(std::min(a, b) - room))] += 1;
-        starts_[static_cast<std::size_t>(bin(std::max(a, b) + room)) + 1] -= 1;
+        starts_[static_cast<std::size_t>(bin(std::min(a, b) - room()))] += 1;
+        starts_[static_cast<std::size_t>(bin(std::max(a, b) + room())) + 1] -= 1;
     }
     [[nodiscard]] std::int64_t most_crossings() const {
         std::int64_t most = 0;
@@ -196,7 +195,8 @@ std::optional<std::int64_t> bound_by_sheaves(const Placement& placement, const I
     const double error =
         16.0 * half_ulp * largest +
         2.0 * placement.error() * (placement.directional() ? 1.0 : (1.0 + largest) / nearest);
-    if (!(2.0 * error <= std::min(upright.room(), level.room()))) return std::nullopt;
+    // Strictly: a picture without extent has no lines to tell apart.
+    if (!(2.0 * error < std::min(upright.room(), level.room()))) return std::nullopt;
     for (std::uint32_t i = sides.first; i < sides.first + sides.count; i += 3) {
         const std::uint32_t to = indices[i];
         const std::uint32_t from = indices[i + 1];
