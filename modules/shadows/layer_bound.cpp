@@ -82,6 +82,29 @@ Axes axes_along(const glm::dvec3& forward) {
     return {right, glm::cross(right, f), f};
 }
 
+// Along the way to the middle of the mesh; none where it fills more than some 160 degrees, and a
+// picture has no resolution left.
+std::optional<Axes> axes_of_one_picture(const Placement& placement) {
+    if (placement.directional()) return axes_along(-glm::dvec3(placement.space.light));
+    glm::dvec3 center(0.0);
+    const auto corners = placement.corners();
+    for (const glm::dvec3& corner : corners) center += corner * 0.125;
+    const Axes axes = axes_along(center);
+    const bool narrow = std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& d) {
+        return glm::dot(d, axes.forward) > 0.15 * glm::length(d);
+    });
+    return narrow ? std::optional(axes) : std::nullopt;
+}
+
+// Of a coordinate of a picture that reaches from `low` to `high`.
+double error_in_picture(const Placement& placement, const glm::dvec2& low, const glm::dvec2& high,
+                        double nearest) {
+    const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x),
+                                     std::abs(high.y), placement.directional() ? 0.0 : 1.0});
+    return 16.0 * half_ulp * largest +
+           2.0 * placement.error() * (placement.directional() ? 1.0 : (1.0 + largest) / nearest);
+}
+
 std::int64_t even(double x) { return 2 * std::llround(0.5 * x); }
 
 // ---------------------------------------------------------------------------------------------
@@ -110,11 +133,7 @@ std::optional<std::int64_t> bound_in_one_picture(const Placement& placement,
         }
     }
     const double extent = std::max(high.x - low.x, high.y - low.y);
-    const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x),
-                                     std::abs(high.y), placement.directional() ? 0.0 : 1.0});
-    const double error =
-        16.0 * half_ulp * largest +
-        2.0 * placement.error() * (placement.directional() ? 1.0 : (1.0 + largest) / nearest);
+    const double error = error_in_picture(placement, low, high, nearest);
     // In units of the grid, half of its slack; also refuses what is not a number.
     if (!(error * static_cast<double>(WindingGrid::width) <=
           0.5 * static_cast<double>(WindingGrid::slack) * extent)) {
@@ -190,11 +209,7 @@ std::optional<std::int64_t> bound_by_sheaves(const Placement& placement, const I
     }
     Sheaf upright(low.x, high.x);
     Sheaf level(low.y, high.y);
-    const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x),
-                                     std::abs(high.y), placement.directional() ? 0.0 : 1.0});
-    const double error =
-        16.0 * half_ulp * largest +
-        2.0 * placement.error() * (placement.directional() ? 1.0 : (1.0 + largest) / nearest);
+    const double error = error_in_picture(placement, low, high, nearest);
     // Strictly: a picture without extent has no lines to tell apart.
     if (!(2.0 * error < std::min(upright.room(), level.room()))) return std::nullopt;
     for (std::uint32_t i = sides.first; i < sides.first + sides.count; i += 3) {
@@ -340,21 +355,9 @@ std::uint32_t bound_layers(const ShadowMesh& mesh, const CastingFaces& casting,
     const std::uint32_t quick = quick_bound(casting.count(), sides, seen_from_outside(mesh, space));
     if (quick <= 1) return quick;
 
-    std::optional<std::int64_t> found;
-    if (placement.directional()) {
-        found = bound_in_one_picture(placement, boundary, axes_along(-glm::dvec3(space.light)));
-    } else {
-        glm::dvec3 center(0.0);
-        const auto corners = placement.corners();
-        for (const glm::dvec3& corner : corners) center += corner * 0.125;
-        const Axes axes = axes_along(center);
-        // Wider than some 160 degrees, a picture has no resolution left.
-        const bool narrow = std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& d) {
-            return glm::dot(d, axes.forward) > 0.15 * glm::length(d);
-        });
-        found = narrow ? bound_in_one_picture(placement, boundary, axes)
-                       : bound_all_round(placement, casting, boundary);
-    }
+    const std::optional<Axes> axes = axes_of_one_picture(placement);
+    const auto found = axes ? bound_in_one_picture(placement, boundary, *axes)
+                            : bound_all_round(placement, casting, boundary);
     if (!found) return quick;
     return static_cast<std::uint32_t>(std::min<std::int64_t>(*found, quick));
 }
@@ -387,18 +390,9 @@ std::uint32_t coarse_layer_bound(const ShadowMesh& mesh, const Volume& volume,
                                  const LayerSpace& space) {
     const std::uint32_t quick = quick_layer_bound(volume, seen_from_outside(mesh, space));
     const Placement placement(mesh, space);
-    Axes axes = axes_along(-glm::dvec3(space.light));
-    if (!placement.directional()) {
-        glm::dvec3 center(0.0);
-        const auto corners = placement.corners();
-        for (const glm::dvec3& corner : corners) center += corner * 0.125;
-        axes = axes_along(center);
-        const bool before = std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& d) {
-            return glm::dot(d, axes.forward) > 0.15 * glm::length(d);
-        });
-        if (!before) return quick;
-    }
-    const auto found = bound_by_sheaves(placement, volume.sides, volume.indices, axes);
+    const std::optional<Axes> axes = axes_of_one_picture(placement);
+    if (!axes) return quick;
+    const auto found = bound_by_sheaves(placement, volume.sides, volume.indices, *axes);
     if (!found) return quick;
     return static_cast<std::uint32_t>(std::min<std::int64_t>(*found, quick));
 }
