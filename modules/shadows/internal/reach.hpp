@@ -6,7 +6,7 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <span>
 
 #include <glm/glm.hpp>
 
@@ -32,7 +32,8 @@ struct Reach {
     glm::dvec3 normal{0.0};
     double distance = 0.0;
     double margin = 0.0;  ///< what receivers and caster are away from it at least
-    /// What receives, cut off where the shadow ends; all of space where that is not known.
+    /// What receives, cut off where the shadow ends; all that the shadow covers where receivers may
+    /// be anywhere.
     Aabb box = Aabb::nothing();
 };
 
