@@ -33,11 +33,11 @@ demo: build ## draw the demonstration pictures
 	@scripts/demo
 
 # All suites run whatever becomes of the first, and the closing line is the main suite's.
-test: build/build.ninja build/asan/build.ninja ## build and run all tests, under ASan and UBSan too, and fuzz for 30 s a target
+test: build/build.ninja build/asan/build.ninja ## build and run all tests, under ASan and UBSan too, and fuzz for half a minute a target
 	@cmake --build --preset release
 	@cmake --build --preset asan
 	@status=0; \
-	JOBS=$(JOBS) scripts/fuzz 30 || status=$$?; \
+	JOBS=$(JOBS) scripts/fuzz || status=$$?; \
 	ctest --preset asan -j$(JOBS) || status=$$?; \
 	ctest --preset release -j$(JOBS) || status=$$?; \
 	[ $$status -eq 0 ] || echo "make test: a test failed, see above"; \

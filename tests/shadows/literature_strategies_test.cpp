@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +66,31 @@ TEST(HexTree, LooksAtEveryBoundaryEdge) {
     const auto mesh = test::build(soup);
     EXPECT_EQ(mesh->report().boundary_edges, mesh->edges().size());
     EXPECT_EQ(edges_tested("hextree", *mesh, light), mesh->edges().size());
+}
+
+// The offsets of these two sheets differ by more than a float can say.
+TEST(HexTree, PlacesPlanesThatLieFarApart) {
+    constexpr float size = 1e38F;
+    constexpr float high = 2.5e38F;
+    const auto mesh = test::build({{{0, 0, high},
+                                    {size, 0, high},
+                                    {size, size, high},
+                                    {0, size, high},
+                                    {0, 0, -high},
+                                    {size, 0, -high},
+                                    {size, size, -high},
+                                    {0, size, -high}},
+                                   {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7}});
+    const LightLocal above{{0.3F * size, 0.2F * size, 3e38F, 1.0F}};
+    const auto find = [&](std::string_view strategy) {
+        const auto detector = find_strategy(strategy)->create();
+        std::vector<SilhouetteEdge> edges =
+            detector->detect(*mesh, above, NearCaps::Facing).silhouette;
+        std::ranges::sort(edges);
+        return edges;
+    };
+    EXPECT_FALSE(find("brute_force").empty());
+    EXPECT_EQ(find("hextree"), find("brute_force"));
 }
 
 // Equal ends, but not one pair: Lengyel's list has such an edge several times, the answer once.

@@ -59,8 +59,13 @@ Dual dual_point(const FacePlanes& planes, std::uint32_t face) {
 // Four bits a level, from the top: in which half of each axis the middle of the segment lies. So
 // edges sorted by it have each node's side by side.
 std::uint32_t path_of(const Dual& middle, const DualBox& world) {
-    const Dual size = glm::max(world.high - world.low, Dual(std::numeric_limits<float>::min()));
-    const Dual place = glm::clamp((middle - world.low) / size * 16.0F, Dual(0.0F), Dual(15.0F));
+    // In double: the difference of two floats can be more than a float holds, their quotient no
+    // number.
+    const glm::dvec4 low(world.low);
+    const glm::dvec4 size =
+        glm::max(glm::dvec4(world.high) - low, glm::dvec4(std::numeric_limits<float>::min()));
+    const glm::dvec4 place =
+        glm::clamp((glm::dvec4(middle) - low) / size * 16.0, glm::dvec4(0.0), glm::dvec4(15.0));
     std::uint32_t path = 0;
     for (unsigned level = 0; level < depth; ++level) {
         for (int axis = 0; axis < 4; ++axis) {
