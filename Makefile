@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test soak bench peers docs install format tidy clean FORCE
+.PHONY: help setup build demo test soak bench peers savings docs install format tidy clean FORCE
 
 help: ## this list
 	@echo "gnomon: exact hard shadows. Targets:"
@@ -71,6 +71,10 @@ peers: build/build.ninja ## compare with OGRE's and Irrlicht's shadows, and writ
 	@cmake --build build --target peers
 	@bench/peers/gnomon-peers --programs build/bin --rounds $(PEERS_ROUNDS) --out bench/results/peers.json --pictures build/peers
 	@scripts/performance-tables --peers bench/results/peers.json --document docs/performance.md
+
+savings: build ## measure what each saving of fill saves, and write bench/results/savings.json and its tables
+	@bench/savings/gnomon-savings --program build/bin/gnomon --models ../shared/models --out bench/results/savings.json
+	@scripts/performance-tables --savings bench/results/savings.json --document docs/performance.md
 
 docs: ## the reference of all public headers and the guides, in build/docs/html
 	@scripts/setup --docs
