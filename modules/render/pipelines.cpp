@@ -185,8 +185,8 @@ void make_overlays(Maker& make, const RendererDesc& desc, const shadow_pass::Sha
     make.pipeline(d, p.wireframe);
 
     d.vertex = shadows.vertex_shader();
-    d.vertex_buffers = {shadows.vertex_layout()};
-    d.bind_group_layouts = {shadows.bind_group_layout(), p.overlay_layout};
+    d.vertex_buffers = shadows.vertex_layouts();
+    d.bind_group_layouts = {p.empty_layout, p.overlay_layout};
     d.label = "silhouette overlay";
     make.pipeline(d, p.volume_lines);
     d.label = "volume overlay";
@@ -223,6 +223,7 @@ Result<Pipelines> create_pipelines(gpu::Device& device, const RendererDesc& desc
     make.layout("round",
                 {{.binding = 0, .visibility = ShaderStage::Fragment, .has_dynamic_offset = true}},
                 p.round_layout);
+    make.layout("empty", {}, p.empty_layout);
     make.layout("overlay",
                 {{.binding = 4, .visibility = ShaderStage::Fragment, .has_dynamic_offset = true}},
                 p.overlay_layout);

@@ -10,6 +10,8 @@
 #include <gnomon/shadows/edge_quads.hpp>
 #include <gnomon_shaders/shadow_pass.hpp>
 
+#include "internal/volume_instances.hpp"
+
 namespace gnomon::shadow_pass::internal {
 
 using shadows::QuadFacing;
@@ -20,18 +22,33 @@ constexpr std::uint32_t row = 4096;  // texels; the shaders know it
 
 using Texel = std::array<std::uint32_t, 4>;
 
+// As the shaders have it (std140).
+struct QuadUniforms {
+    glm::mat4 clip_from_local;
+    glm::mat4 clip_from_far;
+    glm::vec4 far_offset;
+    glm::vec4 far_scale;  // x alone
+    glm::vec4 light;
+    glm::uvec4 ranges;
+};
+
 bool has_one_far_point(const shadows::VolumeDraw& draw) {
     return draw.quads->light.is_directional() && draw.extrusion.offset.w == 0.0F;
 }
 
-}  // namespace
-
-QuadUniforms uniforms_of(const shadows::VolumeDraw& draw) {
+QuadUniforms uniforms_of(const shadows::VolumeDraw& draw, const glm::dmat4& clip_from_world) {
+    const VolumeInstance of_all = instance_of(draw, clip_from_world);
     const shadows::QuadRanges ranges = shadows::quad_ranges(*draw.mesh, has_one_far_point(draw));
-    return {shadows::light_of_planes(*draw.mesh, draw.quads->light),
+    return {of_all.clip_from_local,
+            of_all.clip_from_far,
+            of_all.far_offset,
+            glm::vec4(of_all.far_scale, 0.0F, 0.0F, 0.0F),
+            shadows::light_of_planes(*draw.mesh, draw.quads->light),
             {ranges.side_vertices, ranges.near_cap.first, ranges.far_cap.first,
              draw.quads->near_caps == shadows::NearCaps::Averted ? 1U : 0U}};
 }
+
+}  // namespace
 
 shadows::Volume ranges_of(const shadows::VolumeDraw& draw) {
     const shadows::QuadRanges ranges = shadows::quad_ranges(*draw.mesh, has_one_far_point(draw));
@@ -65,20 +82,19 @@ shadows::DrawList without_quads(const shadows::DrawList& list) {
     return result;
 }
 
-Result<GpuQuads> GpuQuads::create(gpu::Device& device, std::uint64_t uniform_bytes) {
+Result<GpuQuads> GpuQuads::create(gpu::Device& device) {
     GpuQuads quads(device);
-    quads.uniform_bytes_ = uniform_bytes;
     if (const Status created = quads.create_objects(); !created) return forward_error(created);
     return quads;
 }
 
 Status GpuQuads::create_objects() {
-    auto uniforms =
-        device_->create_bind_group_layout({.label = "edge quads",
-                                           .entries = {{.binding = 0,
-                                                        .visibility = gpu::ShaderStage::Vertex,
-                                                        .has_dynamic_offset = true,
-                                                        .min_binding_size = uniform_bytes_}}});
+    auto uniforms = device_->create_bind_group_layout(
+        {.label = "edge quads",
+         .entries = {{.binding = 0,
+                      .visibility = gpu::ShaderStage::Vertex,
+                      .has_dynamic_offset = true,
+                      .min_binding_size = sizeof(QuadUniforms)}}});
     if (!uniforms) return forward_error(uniforms);
     uniform_layout_ = std::move(*uniforms);
 
@@ -235,16 +251,44 @@ Result<gpu::BindGroupId> GpuQuads::textures_of(const shadows::VolumeDraw& draw, 
     return placed->second.facing.group.id();
 }
 
-Result<gpu::BindGroupId> GpuQuads::uniforms_in(gpu::BufferId buffer) {
-    if (buffer == uniform_buffer_) return uniform_group_.id();
-    auto group = device_->create_bind_group(
-        {.label = "edge quads",
-         .layout = uniform_layout_,
-         .entries = {{.binding = 0, .buffer = buffer, .size = uniform_bytes_}}});
-    if (!group) return forward_error(group);
-    uniform_group_ = std::move(*group);
-    uniform_buffer_ = buffer;
-    return uniform_group_.id();
+Status GpuQuads::write_uniforms(const shadows::DrawList& list, const shadows::View& view,
+                                std::uint64_t& uploaded) {
+    const std::uint32_t alignment = device_->caps().limits.min_uniform_buffer_offset_alignment;
+    const auto stride =
+        static_cast<std::uint32_t>((sizeof(QuadUniforms) + alignment - 1) / alignment * alignment);
+    const glm::dmat4 clip_from_world = view.clip_from_world();
+    offsets_.assign(list.draws.size(), 0);
+    uniform_bytes_.clear();
+    for (std::size_t i = 0; i < list.draws.size(); ++i) {
+        if (!list.draws[i].quads) continue;
+        const std::size_t offset = uniform_bytes_.size();
+        offsets_[i] = static_cast<std::uint32_t>(offset);
+        const QuadUniforms u = uniforms_of(list.draws[i], clip_from_world);
+        uniform_bytes_.resize(offset + stride);
+        std::memcpy(uniform_bytes_.data() + offset, &u, sizeof u);
+    }
+    if (uniform_bytes_.empty()) return {};
+    const std::uint64_t needed = uniform_bytes_.size();
+    if (needed > uniform_capacity_) {
+        const std::uint64_t capacity = needed + needed / 2 / stride * stride;
+        uniform_capacity_ = 0;
+        uniform_group_.reset();
+        auto buffer = device_->create_buffer(
+            {.label = "edge quads' matrices",
+             .size = capacity,
+             .usage = gpu::BufferUsage::Uniform | gpu::BufferUsage::CopyDst});
+        if (!buffer) return forward_error(buffer);
+        uniform_buffer_ = std::move(*buffer);
+        auto group = device_->create_bind_group(
+            {.label = "edge quads",
+             .layout = uniform_layout_,
+             .entries = {{.binding = 0, .buffer = uniform_buffer_, .size = sizeof(QuadUniforms)}}});
+        if (!group) return forward_error(group);
+        uniform_group_ = std::move(*group);
+        uniform_capacity_ = capacity;
+    }
+    uploaded += needed;
+    return device_->write_buffer(uniform_buffer_, 0, uniform_bytes_);
 }
 
 void GpuQuads::keep(std::uint64_t revision, std::uint64_t frame) {

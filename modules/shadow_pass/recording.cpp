@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // ShadowPass::record() and its kin: what was prepared becomes commands.
-#include <optional>
 #include <span>
 
 #include <gnomon/core/expects.hpp>
@@ -10,26 +9,50 @@
 
 namespace gnomon::shadow_pass {
 
-using internal::pipeline_index;
-using internal::Pipelines;
+namespace {
 
-void ShadowPass::State::draw(gpu::RenderPassEncoder& encoder, const Recorded& volume,
-                             const Run& run, std::optional<std::uint32_t>& bound) const {
-    const internal::IndexRun& where = run.of_mesh ? volume.mesh_caps : volume.indices.run;
-    const std::uint32_t first = run.of_mesh ? run.first : run.first - volume.indices.begin;
-    if (bound != where.chunk) {
-        encoder.set_index_buffer(indices.buffer(where.chunk), gpu::IndexFormat::Uint32);
-        bound = where.chunk;
+// Remembers what is set, so that a call that would change nothing is not recorded.
+class Recorder {
+public:
+    Recorder(gpu::RenderPassEncoder& encoder, const shadows::PixelRect& everything)
+        : encoder_(encoder), scissor_(everything) {}
+
+    void set_scissor(const shadows::PixelRect& wanted) {
+        if (wanted == scissor_) return;
+        encoder_.set_scissor_rect(wanted.x, wanted.y, wanted.width, wanted.height);
+        scissor_ = wanted;
     }
-    encoder.draw_indexed(run.count, 1, where.first + first, run.base_vertex);
-}
+    void set_pipeline(gpu::RenderPipelineId pipeline) {
+        if (change(pipeline_, pipeline)) encoder_.set_pipeline(pipeline);
+    }
+    void forget_pipeline() { pipeline_ = {}; }
+    void set_vertices(gpu::BufferId vertices, gpu::BufferId instances) {
+        if (change(vertices_, vertices)) encoder_.set_vertex_buffer(0, vertices);
+        if (change(instances_, instances)) encoder_.set_vertex_buffer(1, instances);
+    }
+    void set_indices(gpu::BufferId indices) {
+        if (change(indices_, indices)) {
+            encoder_.set_index_buffer(indices, gpu::IndexFormat::Uint32);
+        }
+    }
 
-void ShadowPass::State::set_scissor(gpu::RenderPassEncoder& encoder,
-                                    const shadows::PixelRect& wanted, shadows::PixelRect& current) {
-    if (wanted == current) return;
-    encoder.set_scissor_rect(wanted.x, wanted.y, wanted.width, wanted.height);
-    current = wanted;
-}
+private:
+    template <class T>
+    static bool change(T& current, T wanted) {
+        if (current == wanted) return false;
+        current = wanted;
+        return true;
+    }
+
+    gpu::RenderPassEncoder& encoder_;
+    shadows::PixelRect scissor_;
+    gpu::RenderPipelineId pipeline_;
+    gpu::BufferId vertices_;
+    gpu::BufferId instances_;
+    gpu::BufferId indices_;
+};
+
+}  // namespace
 
 void ShadowPass::record(gpu::RenderPassEncoder& encoder, std::size_t light) const {
     state_->record(encoder, light, std::nullopt);
@@ -41,55 +64,41 @@ void ShadowPass::record_fill(gpu::RenderPassEncoder& encoder, std::size_t light,
 }
 
 // Metered or not, the very same draws.
-void ShadowPass::State::record(gpu::RenderPassEncoder& encoder, std::size_t light,
+void ShadowPass::State::record(gpu::RenderPassEncoder& encoder, std::size_t l,
                                std::optional<Fill> metered) const {
-    const State& s = *this;
-    const shadows::LightDraws& of_light = s.lights[light];
+    const PreparedLight& light = lights[l];
     encoder.push_debug_group(metered ? "shadow volumes, metered" : "shadow volumes");
-    const bool batched = of_light.batches > 1 && !metered;
-    const gpu::RenderPipeline* current = nullptr;
-    shadows::PixelRect scissor = s.everything();
-    std::optional<std::uint32_t> indices;
-    for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
-        const State::Recorded& volume = s.recorded[i];
-        if (batched && i > of_light.first && volume.batch != s.recorded[i - 1].batch) {
-            State::set_scissor(encoder, s.everything(), scissor);
-            s.fold->fold(encoder);
-            current = nullptr;
+    const bool batched = light.draws.batches > 1 && !metered;
+    Recorder recorder(encoder, everything());
+    const Call* previous = nullptr;
+    for (const Call& call : light.calls) {
+        if (batched && previous != nullptr && call.batch != previous->batch) {
+            recorder.set_scissor(everything());
+            fold->fold(encoder);
+            recorder.forget_pipeline();
         }
-        if (volume.runs.empty()) continue;
-        State::set_scissor(encoder, volume.scissor, scissor);
-        const std::uint32_t offset = i * s.uniform_stride;
-        const bool quads = volume.quads != shadows::QuadFacing::None;
-        if (quads) {
-            encoder.set_bind_group(0, s.quad_uniforms, std::span(&offset, 1));
-            encoder.set_bind_group(1, volume.quad_textures);
+        previous = &call;
+        recorder.set_scissor(call.scissor);
+        recorder.set_pipeline(pipelines->get(call.quads, batched, metered)[call.pipeline]);
+        if (call.quads != shadows::QuadFacing::None) {
+            encoder.set_bind_group(0, quads->uniforms(), std::span(&call.instance, 1));
+            encoder.set_bind_group(1, call.textures);
+            encoder.draw(call.count, 1, call.first);
         } else {
-            encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
-            encoder.set_vertex_buffer(0, volume.vertices);
-        }
-        const Pipelines& of_stage = s.pipelines->get(volume.quads, batched, metered);
-        for (const Run& run : volume.runs) {
-            const auto& pipeline = of_stage[pipeline_index(
-                volume.technique, volume.exchanged != run.exchanged, volume.unclipped, run.role)];
-            if (&pipeline != current) encoder.set_pipeline(pipeline);
-            current = &pipeline;
-            if (quads) {
-                encoder.draw(run.count, 1, run.first);
-            } else {
-                s.draw(encoder, volume, run, indices);
-            }
+            recorder.set_vertices(call.vertices, instances.buffer());
+            recorder.set_indices(call.indices);
+            encoder.draw_indexed(call.count, 1, call.first, call.base_vertex, call.instance);
         }
     }
-    State::set_scissor(encoder, s.everything(), scissor);
+    recorder.set_scissor(everything());
     if (batched) {
-        s.fold->fold(encoder);
-        s.fold->finish(encoder);
+        fold->fold(encoder);
+        fold->finish(encoder);
     }
-    if (of_light.clear_background && !metered) {
-        State::set_scissor(encoder, s.scissor_of(of_light.bounds), scissor);
-        s.background->record(encoder);
-        State::set_scissor(encoder, s.everything(), scissor);
+    if (light.draws.clear_background && !metered) {
+        recorder.set_scissor(scissor_of(light.draws.bounds));
+        background->record(encoder);
+        recorder.set_scissor(everything());
     }
     encoder.pop_debug_group();
 }
@@ -97,26 +106,27 @@ void ShadowPass::State::record(gpu::RenderPassEncoder& encoder, std::size_t ligh
 void ShadowPass::record_part(gpu::RenderPassEncoder& encoder, std::size_t light, Part part,
                              gpu::RenderPipelineId pipeline) const {
     const State& s = *state_;
-    const shadows::LightDraws& of_light = s.lights[light];
     encoder.set_pipeline(pipeline);
-    std::optional<std::uint32_t> indices;
-    for (std::uint32_t i = of_light.first; i < of_light.first + of_light.count; ++i) {
-        const State::Recorded& recorded = s.recorded[i];
-        if (recorded.runs.empty() || recorded.quads != shadows::QuadFacing::None) continue;
-        const shadows::Volume& volume = *recorded.volume;
-        const std::uint32_t offset = i * s.uniform_stride;
-        encoder.set_bind_group(0, s.bind_group, std::span(&offset, 1));
-        encoder.set_vertex_buffer(0, recorded.vertices);
-        const auto draw = [&](std::uint32_t first, std::uint32_t count) {
-            if (count > 0) s.draw(encoder, recorded, {.first = first, .count = count}, indices);
+    Recorder recorder(encoder, s.everything());
+    for (const internal::VolumeParts& of_volume : s.lights[light].parts) {
+        const shadows::Volume& volume = *of_volume.volume;
+        const auto draw = [&](const Run& run) {
+            if (run.count == 0) return;
+            const ArenaRun& where = run.of_mesh ? of_volume.mesh_caps : of_volume.indices;
+            recorder.set_vertices(of_volume.vertices, s.instances.buffer());
+            recorder.set_indices(s.indices.buffer(where.chunk));
+            encoder.draw_indexed(
+                run.count, 1,
+                where.first + (run.of_mesh ? run.first : run.first - of_volume.indices_begin),
+                of_volume.base_vertex + run.base_vertex, of_volume.instance);
         };
-        if (part == Part::Sides) draw(volume.sides.first, volume.sides.count);
+        if (part == Part::Sides) draw({.first = volume.sides.first, .count = volume.sides.count});
         if (part == Part::Caps) {
-            for (const Run& run : recorded.near_caps) s.draw(encoder, recorded, run, indices);
+            for (const Run& run : of_volume.near_caps) draw(run);
         }
         if (part == Part::Silhouettes) {
             const auto lines = static_cast<std::uint32_t>(volume.indices.size());
-            draw(lines, recorded.indices.run.count - lines);
+            draw({.first = lines, .count = of_volume.indices.count - lines});
         }
     }
 }

@@ -18,52 +18,39 @@ namespace gnomon::shadow_pass {
 
 namespace {
 
-// As the shaders have it (std140).
-struct VolumeUniforms {
-    glm::mat4 clip_from_local;
-    glm::mat4 clip_from_far;
-    glm::vec4 far_offset;
-    glm::vec4 far_scale;
-};
-
-constexpr std::uint32_t quad_uniform_bytes =
-    sizeof(VolumeUniforms) + sizeof(internal::QuadUniforms);
-
 bool is_same_view(const shadows::View& a, const shadows::View& b) {
     return a.projection == b.projection && a.view_from_world == b.view_from_world &&
            a.clip_from_view == b.clip_from_view;
 }
 
-// The volume's indices, and behind them one line per side: the near edge that it stands on.
-std::vector<std::uint32_t> with_silhouette_lines(const shadows::Volume& volume) {
-    std::vector<std::uint32_t> result = volume.indices;
-    const shadows::IndexRange& sides = volume.sides;
-    for (std::uint32_t i = sides.first; i < sides.first + sides.count; i += 3) {
-        const bool starts_a_side = volume.indices[i] % 2 == 0 && volume.indices[i + 1] % 2 == 0;
-        if (starts_a_side) result.insert(result.end(), {volume.indices[i], volume.indices[i + 1]});
-    }
-    return result;
-}
-
 }  // namespace
 
-gpu::VertexBufferLayout ShadowPass::State::vertex_layout() const {
+ShadowPass::State::State(gpu::Device& d, const ShadowPassDesc& description)
+    : device(&d),
+      desc(description),
+      vertices(d, {.label = "shadow volume vertices",
+                   .owner = "A shadow mesh",
+                   .elements = "vertices",
+                   .usage = gpu::BufferUsage::Vertex,
+                   .element_bytes = 2 * sizeof(glm::vec3),  // so that far vertices keep odd numbers
+                   .chunk_elements = 1U << 17U}),
+      // A few hundred thousand triangles' worth of silhouettes.
+      indices(d, {.label = "shadow volume indices",
+                  .owner = "A shadow volume",
+                  .elements = "indices",
+                  .usage = gpu::BufferUsage::Index}),
+      instances(d) {}
+
+std::vector<gpu::VertexBufferLayout> ShadowPass::State::vertex_layouts() const {
     const bool on_cpu = desc.extrusion == ExtrusionPath::Cpu;
-    return {.array_stride = on_cpu ? sizeof(glm::vec4) : sizeof(glm::vec3),
-            .attributes = {
-                {.format = on_cpu ? gpu::VertexFormat::Float32x4 : gpu::VertexFormat::Float32x3}}};
+    const gpu::VertexBufferLayout of_vertex{
+        .array_stride = on_cpu ? sizeof(glm::vec4) : sizeof(glm::vec3),
+        .attributes = {
+            {.format = on_cpu ? gpu::VertexFormat::Float32x4 : gpu::VertexFormat::Float32x3}}};
+    return {of_vertex, internal::instance_layout()};
 }
 
 Status ShadowPass::State::create_shaders() {
-    auto made_layout = device->create_bind_group_layout(
-        {.label = "shadow volume",
-         .entries = {{.binding = 0,
-                      .visibility = gpu::ShaderStage::Vertex,
-                      .has_dynamic_offset = true,
-                      .min_binding_size = sizeof(VolumeUniforms)}}});
-    if (!made_layout) return forward_error(made_layout);
-    layout = std::move(*made_layout);
-
     const bool on_cpu = desc.extrusion == ExtrusionPath::Cpu;
     auto made_vertex = device->create_shader(
         {.label = "shadow volume vertices",
@@ -102,7 +89,7 @@ Status ShadowPass::State::create_quads(const shadows::DrawList& list) {
             const auto& draw = list.draws[i];
             if (!draw.quads) continue;
             if (!quads) {
-                auto made = internal::GpuQuads::create(*device, quad_uniform_bytes);
+                auto made = internal::GpuQuads::create(*device);
                 if (!made) return forward_error(made);
                 quads.emplace(std::move(*made));
             }
@@ -115,131 +102,6 @@ Status ShadowPass::State::create_quads(const shadows::DrawList& list) {
     return {};
 }
 
-Status ShadowPass::State::write_uniforms(const shadows::DrawList& list, const shadows::View& view) {
-    if (list.draws.empty()) return {};
-    const std::uint64_t needed = list.draws.size() * std::uint64_t{uniform_stride};
-    if (needed > uniforms_size) {
-        const std::uint64_t size = needed + needed / 2 / uniform_stride * uniform_stride;
-        bind_group.reset();
-        auto buffer =
-            device->create_buffer({.label = "shadow volume matrices",
-                                   .size = size,
-                                   .usage = gpu::BufferUsage::Uniform | gpu::BufferUsage::CopyDst});
-        if (!buffer) return forward_error(buffer);
-        uniforms = std::move(*buffer);
-        uniforms_size = size;
-        auto group = device->create_bind_group(
-            {.label = "shadow volume matrices",
-             .layout = layout,
-             .entries = {{.binding = 0, .buffer = uniforms, .size = sizeof(VolumeUniforms)}}});
-        if (!group) return forward_error(group);
-        bind_group = std::move(*group);
-    }
-    std::vector<std::byte> bytes(needed);
-    const glm::dmat4 clip_from_world = view.clip_from_world();
-    for (std::size_t i = 0; i < list.draws.size(); ++i) {
-        const shadows::VolumeDraw& draw = list.draws[i];
-        // Products in double, rounded once: the scene must be drawn with these very bits.
-        const VolumeUniforms u{glm::mat4(clip_from_world * draw.world_from_local),
-                               glm::mat4(clip_from_world * draw.world_from_far),
-                               draw.extrusion.offset,
-                               glm::vec4(draw.extrusion.scale, 0.0F, 0.0F, 0.0F)};
-        std::memcpy(bytes.data() + i * uniform_stride, &u, sizeof u);
-        if (!draw.quads) continue;
-        const internal::QuadUniforms more = internal::uniforms_of(draw);
-        std::memcpy(bytes.data() + i * uniform_stride + sizeof u, &more, sizeof more);
-    }
-    stats.uploaded_bytes += needed;
-    return device->write_buffer(uniforms, 0, bytes);
-}
-
-Result<gpu::BufferId> ShadowPass::State::vertices_of(const shadows::ShadowMesh& mesh) {
-    const auto found = meshes.find(mesh.id());
-    if (found != meshes.end()) {
-        found->second.used = generation;
-        return found->second.buffer.id();
-    }
-    std::vector<glm::vec3> doubled;
-    doubled.reserve(mesh.positions().size() * 2);
-    for (const glm::vec3& p : mesh.positions()) doubled.insert(doubled.end(), 2, p);
-    const auto bytes = std::as_bytes(std::span(doubled));
-    auto buffer =
-        device->create_buffer({.label = "shadow volume vertices",
-                               .size = bytes.size(),
-                               .usage = gpu::BufferUsage::Vertex | gpu::BufferUsage::CopyDst});
-    if (!buffer) return forward_error(buffer);
-    if (const Status written = device->write_buffer(*buffer, 0, bytes); !written)
-        return forward_error(written);
-    stats.uploaded_bytes += bytes.size();
-    const gpu::BufferId id = buffer->id();
-    meshes.emplace(mesh.id(), MeshVertices{std::move(*buffer), generation});
-    return id;
-}
-
-Result<gpu::BufferId> ShadowPass::State::extruded_vertices_of(std::size_t index,
-                                                              const shadows::VolumeDraw& draw) {
-    std::vector<glm::vec4> far_vertices;
-    shadows::extrude(draw.mesh->positions(), draw.extrusion, far_vertices);
-    std::vector<glm::vec4> vertices;
-    vertices.reserve(far_vertices.size() * 2);
-    for (std::size_t v = 0; v < far_vertices.size(); ++v) {
-        vertices.emplace_back(draw.mesh->positions()[v], 1.0F);
-        vertices.push_back(far_vertices[v]);
-    }
-    const auto bytes = std::as_bytes(std::span(vertices));
-    if (extruded.size() <= index) {
-        extruded.resize(index + 1);
-        extruded_sizes.resize(index + 1, 0);
-    }
-    if (extruded_sizes[index] < bytes.size()) {
-        auto buffer =
-            device->create_buffer({.label = "extruded shadow volume vertices",
-                                   .size = bytes.size(),
-                                   .usage = gpu::BufferUsage::Vertex | gpu::BufferUsage::CopyDst});
-        if (!buffer) return forward_error(buffer);
-        extruded[index] = std::move(*buffer);
-        extruded_sizes[index] = bytes.size();
-    }
-    if (const Status written = device->write_buffer(extruded[index], 0, bytes); !written) {
-        return forward_error(written);
-    }
-    stats.uploaded_bytes += bytes.size();
-    return extruded[index].id();
-}
-
-// Where draws need `volume` alone, the span of its indices that they take; where a debug view may
-// come, all of them.
-Result<ShadowPass::State::VolumeRun> ShadowPass::State::indices_of(const shadows::VolumeDraw& draw,
-                                                                   std::span<const Run> runs) {
-    const bool all = desc.silhouette_lines || desc.cap_parts;
-    auto begin = static_cast<std::uint32_t>(all ? 0 : draw.volume->indices.size());
-    auto end = static_cast<std::uint32_t>(all ? draw.volume->indices.size() : 0);
-    for (const Run& run : runs) {
-        if (run.of_mesh) continue;
-        begin = std::min(begin, run.first);
-        end = std::max(end, run.first + run.count);
-    }
-    if (const auto found = volumes.find(draw.revision); found != volumes.end()) {
-        VolumeRun& known = found->second;
-        if (begin >= end || (known.begin <= begin && end <= known.end)) {
-            known.used = generation;
-            return known;
-        }
-        // Another technique than before wants more.
-        begin = std::min(begin, known.begin);
-        end = std::max(end, known.end);
-        indices.free(known.run);
-        volumes.erase(found);
-    }
-    begin = std::min(begin, end);
-    auto run = desc.silhouette_lines
-                   ? indices.upload(with_silhouette_lines(*draw.volume))
-                   : indices.upload(std::span(draw.volume->indices).subspan(begin, end - begin));
-    if (!run) return forward_error(run);
-    stats.uploaded_bytes += std::uint64_t{run->count} * sizeof(std::uint32_t);
-    return volumes.emplace(draw.revision, VolumeRun{*run, begin, end, generation}).first->second;
-}
-
 void ShadowPass::State::free_unused() {
     std::erase_if(volumes, [&](const auto& entry) {
         const bool unused = entry.second.used != generation;
@@ -250,8 +112,18 @@ void ShadowPass::State::free_unused() {
     // kept for a few seconds of frames.
     constexpr std::uint64_t patience = 300;
     mesh_caps.free_unused(indices, generation, patience);
-    std::erase_if(meshes,
-                  [&](const auto& entry) { return entry.second.used + patience < generation; });
+    mesh_vertices.free_unused(vertices, generation, patience);
+}
+
+// After a failure nobody knows what is on the GPU.
+void ShadowPass::State::forget() {
+    vertices.clear();
+    indices.clear();
+    mesh_vertices.clear();
+    mesh_caps.clear();
+    volumes.clear();
+    instances.forget();
+    lights.clear();
 }
 
 Result<ShadowPass> ShadowPass::create(gpu::Device& device, const ShadowPassDesc& desc) {
@@ -263,9 +135,6 @@ Result<ShadowPass> ShadowPass::create(gpu::Device& device, const ShadowPassDesc&
                         ") is below 0: it would move caps in front of lit surfaces.");
     }
     auto state = std::make_unique<State>(device, desc);
-    const std::uint32_t alignment = device.caps().limits.min_uniform_buffer_offset_alignment;
-    const std::uint32_t size = quad_uniform_bytes;
-    state->uniform_stride = (size + alignment - 1) / alignment * alignment;
     if (const Status created = state->create_shaders(); !created) return forward_error(created);
     state->pipelines.emplace(device, desc, state->fragment);
     const Status made =
@@ -288,115 +157,86 @@ Status ShadowPass::prepare(const shadows::DrawList& list, const shadows::View& v
         return {};
     }
     s.prepared_revision = 0;
+    // Volumes of no system may share a revision with others.
+    if (list.revision == 0) s.lights.clear();
     const bool any_quads = std::any_of(list.draws.begin(), list.draws.end(),
                                        [](const auto& draw) { return draw.quads.has_value(); });
     if (any_quads && (s.desc.extrusion == ExtrusionPath::Cpu || s.desc.expand_quads)) {
         return prepare(internal::without_quads(list), view, target);
     }
-    ++s.generation;
-    s.target = target;
     s.stats = {};
-    s.recorded.clear();
-    s.lights = list.lights;
-    // What changed frees its old indices first, so that the new ones find the room.
-    for (const shadows::VolumeDraw& draw : list.draws) {
-        if (const auto found = s.volumes.find(draw.revision); found != s.volumes.end()) {
-            found->second.used = s.generation;
-        }
-        if (s.quads && draw.quads) s.quads->keep(draw.revision, s.generation);
+    if (!(target == s.target)) s.lights.clear();
+    s.target = target;
+    if (const Status prepared = s.prepare(list, view, any_quads); !prepared) {
+        s.forget();
+        return prepared;
     }
-    s.free_unused();
-    if (s.quads) s.quads->free_unused(s.generation);
-    if (const Status created = s.create_quads(list); !created) return created;
-    for (const shadows::LightDraws& light : list.lights) {
-        if (light.clear_background) {
-            if (!s.background) {
-                if (const Status created = s.create_background(); !created) return created;
-            }
-            ++s.stats.draw_calls;
-        }
-        if (light.batches <= 1) continue;
-        if (!s.fold) {
-            if (const Status created = s.create_batching(); !created) return created;
-        }
-        s.stats.draw_calls += light.batches + 1;
-    }
-    const bool finite = view.projection != shadows::ProjectionKind::InfinitePerspective;
-    const bool unclipped = finite && s.device->caps().features.unclipped_depth;
-    for (std::size_t i = 0; i < list.draws.size(); ++i) {
-        const shadows::VolumeDraw& draw = list.draws[i];
-        if (draw.bounds.empty()) {
-            s.recorded.emplace_back();
-            s.recorded.back().batch = draw.batch;
-            ++s.stats.hidden_draws;
-            continue;
-        }
-        if (finite && !unclipped && draw.technique == Technique::DepthFail) {
-            return fail(ErrorCode::Unsupported,
-                        "Caster " + std::to_string(draw.caster) + " needs depth-fail for light " +
-                            std::to_string(draw.light) +
-                            " under a projection with a far plane, which would cut its volume off: "
-                            "the adapter " +
-                            s.device->caps().adapter +
-                            " lacks unclipped depth. Use an infinite perspective.");
-        }
-        if (draw.quads) {
-            auto textures = s.quads->textures_of(draw, s.generation, s.stats.uploaded_bytes);
-            if (!textures) return forward_error(textures);
-            s.recorded.push_back(
-                {.vertices = {},
-                 .indices = {},
-                 .mesh_caps = {},
-                 .exchanged = draw.mirrored,
-                 .unclipped = unclipped,
-                 .technique = draw.technique,
-                 .runs = internal::runs_of(draw, internal::ranges_of(draw), s.desc),
-                 .batch = draw.batch,
-                 .volume = draw.volume,
-                 .near_caps = {},
-                 .quads = draw.quads->facing,
-                 .quad_textures = *textures,
-                 .scissor = s.scissor_of(draw.bounds)});
-            s.stats.draw_calls += s.recorded.back().runs.size();
-            continue;
-        }
-        auto vertices = s.desc.extrusion == ExtrusionPath::Cpu ? s.extruded_vertices_of(i, draw)
-                                                               : s.vertices_of(*draw.mesh);
-        if (!vertices) return forward_error(vertices);
-        auto runs = internal::runs_of(draw, s.desc);
-        auto indices = s.indices_of(draw, runs);
-        if (!indices) return forward_error(indices);
-        internal::IndexRun mesh_caps;
-        const bool needs_mesh_caps =
-            (s.desc.cap_parts && !draw.volume->ranges.empty()) ||
-            std::any_of(runs.begin(), runs.end(), [](const Run& r) { return r.of_mesh; });
-        if (needs_mesh_caps) {
-            auto got = s.mesh_caps.get(s.indices, *draw.mesh, s.generation, s.stats.uploaded_bytes);
-            if (!got) return forward_error(got);
-            mesh_caps = *got;
-        }
-        s.recorded.push_back({*vertices, *indices, mesh_caps, draw.mirrored, unclipped,
-                              draw.technique, std::move(runs), draw.batch, draw.volume,
-                              s.desc.cap_parts ? internal::near_caps_of(*draw.mesh, *draw.volume)
-                                               : std::vector<Run>{}});
-        s.recorded.back().scissor = s.scissor_of(draw.bounds);
-        s.stats.draw_calls += s.recorded.back().runs.size();
-    }
-    if (const Status written = s.write_uniforms(list, view); !written) return written;
-    if (any_quads) {
-        auto uniforms = s.quads->uniforms_in(s.uniforms);
-        if (!uniforms) return forward_error(uniforms);
-        s.quad_uniforms = *uniforms;
-    }
-    s.stats.index_bytes_held = s.indices.indices_in_use() * sizeof(std::uint32_t);
     s.prepared_revision = list.revision;
     s.prepared_view = view;
     return {};
 }
 
-gpu::BindGroupLayoutId ShadowPass::bind_group_layout() const { return state_->layout; }
+Status ShadowPass::State::prepare(const shadows::DrawList& list, const shadows::View& view,
+                                  bool any_quads) {
+    ++generation;
+    if (const Status created = create_what_is_new(list, any_quads); !created) return created;
+    if (const Status written = instances.update(list, view, stats.uploaded_bytes); !written) {
+        return written;
+    }
+    find_changed_lights(list, view.projection != shadows::ProjectionKind::InfinitePerspective);
+    // What changed frees its old indices first, so that the new ones find the room.
+    for (const PreparedLight& light : lights) {
+        if (light.known) {
+            for (std::uint64_t* used : light.marks) *used = generation;
+            continue;
+        }
+        const std::uint32_t end = light.draws.first + light.draws.count;
+        for (std::uint32_t i = light.draws.first; i < end; ++i) {
+            const shadows::VolumeDraw& draw = list.draws[i];
+            if (const auto found = volumes.find(draw.revision); found != volumes.end()) {
+                found->second.used = generation;
+            }
+            if (quads && draw.quads) quads->keep(draw.revision, generation);
+        }
+    }
+    free_unused();
+    if (quads) {
+        quads->free_unused(generation);
+        const Status written = quads->write_uniforms(list, view, stats.uploaded_bytes);
+        if (!written) return written;
+    }
+    for (PreparedLight& light : lights) {
+        if (!light.known) {
+            if (const Status made = make_calls(list, light); !made) return made;
+        }
+        stats.draw_calls += light.draw_calls;
+        stats.hidden_draws += light.hidden_draws;
+    }
+    if (const Status written = vertices.flush(); !written) return written;
+    if (const Status written = indices.flush(); !written) return written;
+    stats.index_bytes_held = indices.elements_in_use() * sizeof(std::uint32_t);
+    return {};
+}
+
+Status ShadowPass::State::create_what_is_new(const shadows::DrawList& list, bool any_quads) {
+    if (any_quads) {
+        if (const Status created = create_quads(list); !created) return created;
+    }
+    for (const shadows::LightDraws& light : list.lights) {
+        if (light.clear_background && !background) {
+            if (const Status created = create_background(); !created) return created;
+        }
+        if (light.batches > 1 && !fold) {
+            if (const Status created = create_batching(); !created) return created;
+        }
+    }
+    return {};
+}
+
 gpu::ShaderId ShadowPass::vertex_shader() const { return state_->vertex; }
-gpu::VertexBufferLayout ShadowPass::vertex_layout() const { return state_->vertex_layout(); }
+std::vector<gpu::VertexBufferLayout> ShadowPass::vertex_layouts() const {
+    return state_->vertex_layouts();
+}
 
 const PassStats& ShadowPass::stats() const { return state_->stats; }
 

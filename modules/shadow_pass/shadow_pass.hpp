@@ -128,8 +128,9 @@ public:
     ~ShadowPass();
 
     /// Uploads what the list needs and the GPU does not have: where nothing moved but the camera,
-    /// 256 bytes a volume of matrices. Nothing is done for the list of the last call
-    /// (DrawList::revision) and the same view. The list is remembered until the next call.
+    /// 148 bytes a volume of matrices; where a caster moved, those of its volumes. Nothing is done
+    /// for the list of the last call (DrawList::revision) and the same view. The list is remembered
+    /// until the next call.
     ///
     /// `target` is the size of what record() will draw into: volumes are then cut to the pixels
     /// that they can change (VolumeDraw::bounds). Without it none is.
@@ -142,8 +143,8 @@ public:
     /// (LightDraws::batches). Those are folded in place, by draws that cover the viewport: one a
     /// batch and one more. Where volumes end (LightDraws::clear_background), one more draw sets the
     /// stencil to 0 where depth is what it was cleared to. Leaves pipeline, bind groups 0 and 1,
-    /// vertex slot 0, index buffer, stencil reference and, where prepare() was told the target's
-    /// size, the scissor changed: it covers the target.
+    /// vertex slots 0 and 1, index buffer, stencil reference and, where prepare() was told the
+    /// target's size, the scissor changed: it covers the target.
     void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
 
     /// Draws what record() draws, the same triangles under the same scissors, so that the samples
@@ -155,13 +156,12 @@ public:
     void record_fill(gpu::RenderPassEncoder& encoder, std::size_t light, Fill fill) const;
 
     // For debug views: draws one part of a light's volumes with a pipeline of the caller's, whose
-    // bind group 0 has bind_group_layout(), whose vertex stage is vertex_shader() and whose vertex
-    // slot 0 is vertex_layout().
+    // vertex stage is vertex_shader() and whose vertex slots are vertex_layouts(). It reads no bind
+    // group.
     void record_part(gpu::RenderPassEncoder& encoder, std::size_t light, Part part,
                      gpu::RenderPipelineId pipeline) const;
-    [[nodiscard]] gpu::BindGroupLayoutId bind_group_layout() const;
     [[nodiscard]] gpu::ShaderId vertex_shader() const;
-    [[nodiscard]] gpu::VertexBufferLayout vertex_layout() const;
+    [[nodiscard]] std::vector<gpu::VertexBufferLayout> vertex_layouts() const;
 
     [[nodiscard]] const PassStats& stats() const;
 

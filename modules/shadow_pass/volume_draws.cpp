@@ -13,7 +13,9 @@ using shadows::FarCopies;
 
 class Runs {
 public:
-    explicit Runs(const shadows::Volume& volume) : volume_(volume) {}
+    Runs(const shadows::Volume& volume, std::vector<Run>& runs) : volume_(volume), runs_(runs) {
+        runs_.clear();
+    }
 
     void add(const shadows::IndexRange& range) {
         if (range.count > 0) runs_.push_back({.first = range.first, .count = range.count});
@@ -31,25 +33,24 @@ public:
         if (volume_.far_copies != FarCopies::None) add_ranges(list, 1, exchanged, Role::Volume);
     }
 
-    [[nodiscard]] std::vector<Run> finish() {
+    void finish() {
         const auto state_of = [](const Run& r) {
             return std::tie(r.exchanged, r.role, r.of_mesh, r.base_vertex);
         };
-        std::stable_sort(runs_.begin(), runs_.end(), [&](const Run& a, const Run& b) {
+        std::sort(runs_.begin(), runs_.end(), [&](const Run& a, const Run& b) {
             return std::tuple(state_of(a), a.first) < std::tuple(state_of(b), b.first);
         });
-        std::vector<Run> joined;
+        std::size_t joined = 0;
         for (const Run& run : runs_) {
-            const bool goes_on = !joined.empty() &&
-                                 joined.back().first + joined.back().count == run.first &&
-                                 state_of(joined.back()) == state_of(run);
-            if (goes_on) {
-                joined.back().count += run.count;
+            Run* last = joined > 0 ? &runs_[joined - 1] : nullptr;
+            if (last != nullptr && last->first + last->count == run.first &&
+                state_of(*last) == state_of(run)) {
+                last->count += run.count;
             } else {
-                joined.push_back(run);
+                runs_[joined++] = run;
             }
         }
-        return joined;
+        runs_.resize(joined);
     }
 
 private:
@@ -67,22 +68,18 @@ private:
     }
 
     const shadows::Volume& volume_;
-    std::vector<Run> runs_;
+    std::vector<Run>& runs_;
 };
 
 }  // namespace
 
-std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& desc) {
-    return runs_of(draw, *draw.volume, desc);
-}
-
-std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const shadows::Volume& volume,
-                         const ShadowPassDesc& desc) {
+void runs_of(const shadows::VolumeDraw& draw, const shadows::Volume& volume,
+             const ShadowPassDesc& desc, std::vector<Run>& out) {
     const bool near = draw.technique == shadows::Technique::DepthFail || draw.near_caps;
     const bool far = draw.far_caps;
     const bool open = desc.averted_faces == AvertedFaces::LeftToShading;
     const Role cap = desc.cap_bias.none() ? Role::Volume : Role::Cap;
-    Runs runs(volume);
+    Runs runs(volume, out);
     if (far) runs.add(volume.far_cap);
     runs.add(volume.sides);
     if (near) {
@@ -96,7 +93,7 @@ std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const shadows::Volume&
         runs.add_far_caps(volume.near_cap_flipped, false);
         runs.add_far_caps(volume.near_cap_averted, false);
     }
-    return runs.finish();
+    runs.finish();
 }
 
 std::vector<Run> near_caps_of(const shadows::ShadowMesh& mesh, const shadows::Volume& volume) {

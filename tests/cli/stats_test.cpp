@@ -84,7 +84,7 @@ TEST_F(Stats, nothing_moves_nothing_is_done) {
             EXPECT_EQ(frames[i]["pairs_reused"], pairs);
             EXPECT_EQ(frames[i]["faces_tested"], 0);
             EXPECT_EQ(frames[i]["reasons"]["unchanged"], pairs);
-            // Matrices and lights alone: a slot of 256 bytes a draw and light, no index.
+            // Matrices and lights alone: at most a slot of 256 bytes a draw and light, no index.
             EXPECT_EQ(frames[i]["upload_bytes"], frames[1]["upload_bytes"]);
             EXPECT_LE(frames[i]["upload_bytes"].get<std::uint64_t>(), 256 * (5 + 1 + 3 + pairs));
             EXPECT_EQ(frames[i]["silhouette_edges"], frames[0]["silhouette_edges"]);

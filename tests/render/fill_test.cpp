@@ -35,7 +35,9 @@ std::vector<std::array<glm::dvec4, 3>> clip_triangles(const shadows::VolumeDraw&
                glm::dvec4(glm::dvec3(draw.mesh->positions()[index / 2]), 1.0);
     };
     std::vector<std::array<glm::dvec4, 3>> triangles;
-    for (const shadow_pass::internal::Run& run : shadow_pass::internal::runs_of(draw, {})) {
+    std::vector<shadow_pass::internal::Run> runs;
+    shadow_pass::internal::runs_of(draw, *draw.volume, {}, runs);
+    for (const shadow_pass::internal::Run& run : runs) {
         for (std::uint32_t i = run.first; i < run.first + run.count; i += 3) {
             std::array<std::uint32_t, 3> corners{};
             for (std::uint32_t k = 0; k < 3; ++k) {

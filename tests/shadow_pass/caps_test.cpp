@@ -83,9 +83,8 @@ public:
     Scene(std::shared_ptr<const shadows::ShadowMesh> mesh, const CapOptions& caps,
           Technique technique = Technique::DepthFail, const ShadowPassDesc& desc = {})
         : mesh_(std::move(mesh)),
-          system_(*shadows::ShadowSystem::create({.force_technique = technique,
-                                                  .caps = caps,
-                                                  .fill = shadows::FillOptions::none()})),
+          system_(*shadows::ShadowSystem::create(
+              {.force_technique = technique, .caps = caps, .fill = shadows::FillOptions::none()})),
           device_(gpu::create_null_backend()),
           pass_(*ShadowPass::create(device_, desc)) {}
 
@@ -112,7 +111,7 @@ private:
     shadows::DrawList list_;
 };
 
-constexpr std::uint64_t matrices = 256;
+constexpr std::uint64_t matrices = 148;
 
 TEST(Caps, of_a_mesh_are_uploaded_once) {
     Scene scene(ball(32), {.draw_worth_faces = 64});

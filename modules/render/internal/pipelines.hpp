@@ -33,6 +33,7 @@ struct GeometryPipelines {
 struct Pipelines {
     gpu::BindGroupLayout draw_layout;     // binding 1, dynamic
     gpu::BindGroupLayout round_layout;    // binding 0, dynamic
+    gpu::BindGroupLayout empty_layout;    // group 0 of shaders that read group 1 alone
     gpu::BindGroupLayout overlay_layout;  // binding 4, dynamic
     gpu::BindGroupLayout mask_layout;     // binding 5; with several samples 6, whose each is
     gpu::BindGroupLayout tone_map_layout;

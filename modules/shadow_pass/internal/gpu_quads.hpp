@@ -22,12 +22,6 @@
 
 namespace gnomon::shadow_pass::internal {
 
-/// As the shaders have it (std140), behind the matrices and far vertices that all volumes have.
-struct QuadUniforms {
-    glm::vec4 light;
-    glm::uvec4 ranges;
-};
-[[nodiscard]] QuadUniforms uniforms_of(const shadows::VolumeDraw& draw);
 /// The ranges of a Volume that `draw` would have, in vertices; it has no indices.
 [[nodiscard]] shadows::Volume ranges_of(const shadows::VolumeDraw& draw);
 
@@ -37,8 +31,8 @@ struct QuadUniforms {
 
 class GpuQuads {
 public:
-    /// The device must outlive it. `uniform_bytes`: of one volume, QuadUniforms included.
-    [[nodiscard]] static Result<GpuQuads> create(gpu::Device& device, std::uint64_t uniform_bytes);
+    /// The device must outlive it.
+    [[nodiscard]] static Result<GpuQuads> create(gpu::Device& device);
 
     // For pipelines: groups 0 and 1, the vertex stage. No vertex buffer is read.
     [[nodiscard]] std::vector<gpu::BindGroupLayoutId> layouts() const {
@@ -53,8 +47,14 @@ public:
     [[nodiscard]] Result<gpu::BindGroupId> textures_of(const shadows::VolumeDraw& draw,
                                                        std::uint64_t frame,
                                                        std::uint64_t& uploaded);
-    /// Group 0, for dynamic offsets into `buffer`.
-    [[nodiscard]] Result<gpu::BindGroupId> uniforms_in(gpu::BufferId buffer);
+    /// What the shaders know of each draw that has quads. Adds its size to `uploaded`.
+    [[nodiscard]] Status write_uniforms(const shadows::DrawList& list, const shadows::View& view,
+                                        std::uint64_t& uploaded);
+    /// Group 0, with uniform_offset() of a draw as its dynamic offset. Changes with
+    /// write_uniforms().
+    [[nodiscard]] gpu::BindGroupId uniforms() const { return uniform_group_; }
+    /// `i`: of list.draws.
+    [[nodiscard]] std::uint32_t uniform_offset(std::size_t i) const { return offsets_[i]; }
 
 private:
     // What one volume's faces do.
@@ -90,11 +90,13 @@ private:
     Status bind(const Mesh& mesh, Facing& facing);
 
     gpu::Device* device_;
-    std::uint64_t uniform_bytes_ = 0;
     gpu::BindGroupLayout uniform_layout_;
     gpu::BindGroupLayout texture_layout_;
     std::array<gpu::Shader, 2> shaders_;
-    gpu::BufferId uniform_buffer_;
+    gpu::Buffer uniform_buffer_;
+    std::uint64_t uniform_capacity_ = 0;
+    std::vector<std::byte> uniform_bytes_;
+    std::vector<std::uint32_t> offsets_;  // by draw
     gpu::BindGroup uniform_group_;
     std::unordered_map<std::uint64_t, Mesh> meshes_;     // by ShadowMesh::id
     std::unordered_map<std::uint64_t, Volume> volumes_;  // by revision

@@ -29,11 +29,10 @@ struct Run {
     Role role = Role::Volume;
 };
 
-/// In an order that changes state seldom; neighbours that are drawn alike are one.
-[[nodiscard]] std::vector<Run> runs_of(const shadows::VolumeDraw& draw, const ShadowPassDesc& desc);
-/// The same with `volume`, whose ranges alone are read, in the place of the draw's.
-[[nodiscard]] std::vector<Run> runs_of(const shadows::VolumeDraw& draw,
-                                       const shadows::Volume& volume, const ShadowPassDesc& desc);
+/// Into `runs`, in an order that changes state seldom; neighbours that are drawn alike are one.
+/// `volume`, whose ranges alone are read, is the draw's or in its place.
+void runs_of(const shadows::VolumeDraw& draw, const shadows::Volume& volume,
+             const ShadowPassDesc& desc, std::vector<Run>& runs);
 
 /// The near caps of the faces that cast, whatever the technique, without those that are undone: for
 /// Part::Caps.

@@ -2,14 +2,8 @@
 // the mesh has it; odd ones are the far vertex, pushed away from the light here.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "instance.glsl"
 #include "position.glsl"
-
-layout(set = 0, binding = 0) uniform Volume {
-    mat4 clip_from_local;
-    mat4 clip_from_far;
-    vec4 far_offset;
-    vec4 far_scale;  // x alone
-};
 
 layout(location = 0) in vec3 position;
 
@@ -21,7 +15,7 @@ void main() {
     if ((gl_VertexIndex & 1) == 0) {
         gl_Position = clip_position(clip_from_local, vec4(position, 1.0));
     } else {
-        precise vec3 far = position * far_scale.x + far_offset.xyz;
+        precise vec3 far = position * far_scale + far_offset.xyz;
         gl_Position = clip_position(clip_from_far, vec4(far, far_offset.w));
     }
 }

@@ -1,14 +1,8 @@
 // The same for far vertices that the CPU has pushed away already (gnomon::shadows::extrude).
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "instance.glsl"
 #include "position.glsl"
-
-layout(set = 0, binding = 0) uniform Volume {
-    mat4 clip_from_local;
-    mat4 clip_from_far;
-    vec4 far_offset;
-    vec4 far_scale;
-};
 
 layout(location = 0) in vec4 position;
 
