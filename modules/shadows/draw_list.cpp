@@ -265,12 +265,9 @@ bool ShadowSystem::State::fill(bool view_changed) {
     constexpr std::size_t draws_of_task = 256;
     fills.clear();
     chunks.assign(1, 0);
-    std::vector<NearClip> clips;
-    clips.reserve(list.lights.size());
     for (std::uint32_t e = 0; e < list.lights.size(); ++e) {
         const LightState& light = lights[listed[e]];
         const bool is_split = !light.pieces.empty();
-        clips.emplace_back(light.light.position_world, *view);
         for (std::uint32_t i = light.first; i < light.first + light.count; ++i) {
             DrawOrigin::Fill& wanted = origins[i].fill;
             if (is_split && light.worked_on) wanted = DrawOrigin::Fill::All;
@@ -294,11 +291,36 @@ bool ShadowSystem::State::fill(bool view_changed) {
         bool any = false;
         for (std::size_t k = chunks[chunk]; k < chunks[chunk + 1]; ++k) {
             const auto [i, e] = fills[k];
-            any = fill_draw(i, lights[listed[e]], clips[e], seen) || any;
+            any = fill_draw(i, lights[listed[e]], clips[listed[e]], seen) || any;
         }
         if (any) differs = true;
     });
+    renew_revisions();
     return differs;
+}
+
+// In the order of the draws, whoever made the caps.
+void ShadowSystem::State::renew_revisions() {
+    for (const auto [i, e] : fills) {
+        DrawOrigin& origin = origins[i];
+        if (!origin.caps_made) continue;
+        origin.caps_made = false;
+        VolumeDraw& draw = list.draws[i];
+        draw.revision = internal::next_volume_revision();
+        PairState& pair = lights[listed[e]].pairs[origin.caster];
+        if (pair.extra != nullptr && pair.extra->whole == draw.volume) {
+            pair.extra->whole_revision = draw.revision;
+        }
+        ++list.stats.caps_made;
+    }
+}
+
+// Of a volume that was made for a view in which none were drawn.
+void ShadowSystem::State::make_caps(VolumeDraw& draw, DrawOrigin& origin, PairState& pair) const {
+    auto made = std::make_shared<const Volume>(with_caps(*draw.mesh, *draw.volume, options.caps));
+    if (pair.extra != nullptr && pair.extra->whole == draw.volume) pair.extra->whole = made;
+    draw.volume = std::move(made);
+    origin.caps_made = true;
 }
 
 // True where it is another than before, reasons aside.
@@ -345,23 +367,15 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
         place_far_vertices(draw, pair, light, infinite, reach);
         differs = true;
     }
-    const auto choose = [&] {
-        // More faces would cost more to look at than depth-fail costs to draw.
-        constexpr std::size_t most_faces = 512;
-        const bool valid = clip.is_clear_of_sphere(caster.center, caster.radius) ||
-                           clip.is_clear_of(bounds_of(caster)) ||
-                           (caster.mesh->faces().size() <= most_faces &&
-                            clip.is_clear_of(*caster.mesh, caster.pose.world_from_local));
-        return valid ? Technique::DepthPass : Technique::DepthFail;
-    };
-    const Technique technique = options.force_technique ? *options.force_technique : choose();
+    const Technique technique = options.force_technique  ? *options.force_technique
+                                : origin.technique_known ? origin.technique
+                                                         : choose_technique(caster, clip);
+    origin.technique_known = false;
     differs = differs || technique != draw.technique;
     draw.technique = origin.technique = technique;
-    // At infinity a far cap is in front of nothing, and neither is one behind all that can be seen.
-    // Any other closes the volume for depth-pass.
-    const bool behind_all = reaches.plane_is_last && screen->begins_below(reaches.normal, plane);
     draw.far_caps =
-        technique == Technique::DepthFail || (draw.extrusion.offset.w != 0.0F && !behind_all);
+        technique == Technique::DepthFail ||
+        internal::depth_pass_has_far_caps(draw.extrusion.offset.w == 0.0F, reaches, *screen);
     ScreenBounds bounds;
     if (!caster.pose.singular) {
         if (hidden_by(fill_terms(), hull, reaches) != internal::Hidden::No) {
@@ -373,6 +387,12 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
     differs = differs || bounds != draw.bounds;
     draw.bounds = bounds;
     origin.hidden = bounds.empty();
+    const bool draws_caps = draw.far_caps || draw.near_caps;
+    if (draws_caps && !bounds.empty() && draw.volume->made_with.caps.are_ranges_alone() &&
+        !options.caps.are_ranges_alone()) {
+        make_caps(draw, origin, pair);
+        differs = true;
+    }
     return differs;
 }
 

@@ -28,6 +28,9 @@ constexpr std::size_t casters_of_task = 1'000;
 // Pairs at rest give their detectors back after this many frames, at most twice as many.
 constexpr std::uint64_t frames_to_rest = 64;
 
+// Whether volumes still pile up by their quick layers is asked again after so many.
+constexpr std::uint64_t frames_to_forget = 256;
+
 bool same_view(const View& a, const View& b) {
     return a.projection == b.projection &&
            std::memcmp(&a.view_from_world, &b.view_from_world, sizeof a.view_from_world) == 0 &&
@@ -113,6 +116,9 @@ void ShadowSystem::State::finish(const View& now) {
     ++frame;
     if (submission == Submission::Full) drop_unsubmitted();
     if (frame % frames_to_rest == 0) let_detectors_rest();
+    if (frame % frames_to_forget == 0) {
+        for (std::uint32_t l = 0; l < lights.end(); ++l) lights[l].piled_up = false;
+    }
     const bool view_changed = !view || !same_view(*view, now);
     if (!view_changed && !came_or_went && !lights_changed && !receivers_changed &&
         changed_casters.empty()) {
@@ -132,6 +138,10 @@ void ShadowSystem::State::finish(const View& now) {
     lights.sort();
     collect_work(all);
     if (!all && view_changed) take_up_deferred();
+    clips.clear();
+    for (std::uint32_t l = 0; l < lights.end(); ++l) {
+        clips.emplace_back(lights[l].light.position_world, now);
+    }
     update_pairs();
     bool rearranged = place_results();
     const auto start = std::chrono::steady_clock::now();
@@ -146,6 +156,7 @@ void ShadowSystem::State::finish(const View& now) {
     count_draws();
     count_pairs();
     tidy_up();
+    pool.trim();
 }
 
 // The first frame after a change in which nothing changes: nothing but the reasons does.
@@ -153,6 +164,7 @@ void ShadowSystem::State::settle() {
     forget_reasons();
     FrameStats& stats = list.stats;
     stats.pairs_redetected = 0;
+    stats.caps_made = 0;
     stats.detection = {};
     stats.detect_ms = 0.0;
     stats.build_ms = 0.0;
@@ -163,6 +175,7 @@ void ShadowSystem::State::settle() {
     give_back(work);
     give_back(fills);
     give_back(drawn);
+    pool.clear();
 }
 
 void ShadowSystem::State::forget_reasons() {
@@ -268,7 +281,9 @@ void ShadowSystem::State::update_one(PairWork& item, Scratch& scratch, FrameStat
         pair.reason = Reason::OutOfRange;
         return;
     }
-    internal::update_pair(pair, caster, light, terms(), volume, quads_of(light, item.caster),
+    internal::FrameTerms its_terms = terms();
+    its_terms.clip = &clips[item.light];
+    internal::update_pair(pair, caster, light, its_terms, volume, quads_of(light, item.caster),
                           scratch, item, stats);
 }
 
@@ -301,6 +316,8 @@ bool ShadowSystem::State::place_results() {
             origin.fill = DrawOrigin::Fill::All;
             origin.reach = item.reach;
             origin.reach_known = true;
+            origin.technique_known = item.technique.has_value();
+            if (item.technique) origin.technique = *item.technique;
         }
         const bool has_volume = drawn || (pair.extra != nullptr && pair.extra->whole != nullptr);
         rearranged = rearranged || item.had_volume != has_volume;
@@ -384,25 +401,29 @@ bool ShadowSystem::State::piles_up(LightState& light) {
     return true;
 }
 
-// As the pair was last brought up to date for.
-FarVertices ShadowSystem::State::far_vertices_of(const LightState& light,
-                                                 std::uint32_t caster) const {
-    if (!light.pairs[caster].is(PairFlag::FiniteFar)) return FarVertices::AtInfinity;
-    const internal::ShadowHull hull(bounds_of(casters[caster]), light.light);
-    const bool clamped = fill_terms().reach(hull).clamped;
-    return clamped ? FarVertices::OnPlane : FarVertices::Finite;
+// What the pair was last brought up to date for.
+PairWork ShadowSystem::State::work_for(const LightState& light, std::uint32_t caster) const {
+    PairWork item{.caster = caster};
+    if (!light.pairs[caster].is(PairFlag::FiniteFar)) return item;
+    item.reach = fill_terms().reach(internal::ShadowHull(bounds_of(casters[caster]), light.light));
+    item.far_vertices = item.reach.clamped ? FarVertices::OnPlane : FarVertices::Finite;
+    return item;
 }
 
 // What the GPU finds has a coarse bound only. Where that piles up to more than can be counted, the
 // CPU finds it after all: so a light that is split has no quads. True where draws go.
 bool ShadowSystem::State::take_back_quads(LightState& light) {
     Borrowed scratch(scratch_mutex, scratches);
+    const internal::NearClip clip(light.light.position_world, *view);
+    internal::FrameTerms its_terms = terms();
+    its_terms.clip = &clip;
     bool rearranged = false;
     for (const std::uint32_t c : casters.by_key()) {
         if (quads_of(light, c) == nullptr) continue;
         PairState& pair = light.pairs[c];
-        PairWork item{.caster = c, .far_vertices = far_vertices_of(light, c)};
-        internal::take_back_from_gpu(pair, casters[c], light, terms(), *scratch, item, list.stats);
+        PairWork item = work_for(light, c);
+        internal::take_back_from_gpu(pair, casters[c], light, its_terms, *scratch, item,
+                                     list.stats);
         light.layers[c] = item.layers;
         const bool was_drawn = pair.draw != internal::no_draw;
         place_volume(light, pair, item);
@@ -432,7 +453,10 @@ bool ShadowSystem::State::split_lights() {
     for (std::size_t i = 0; i < touched.size(); ++i) {
         LightState& light = *touched[i];
         const bool was_split = !light.pieces.empty();
-        if (pile_up[i] != 0) gather_drawn(light);
+        if (pile_up[i] != 0) {
+            gather_drawn(light);
+            light.piled_up = true;
+        }
         if (pile_up[i] != 0 && std::ranges::any_of(drawn, &internal::DrawnPair::quads)) {
             if (internal::fit_together(light, options.max_layers, drawn)) {
                 pile_up[i] = 0;

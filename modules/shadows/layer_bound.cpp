@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "internal/layers.hpp"
+#include "internal/upright_planes.hpp"
 #include "internal/winding_grid.hpp"
 
 namespace gnomon::shadows {
@@ -347,6 +348,24 @@ std::uint32_t quick_bound(std::uint64_t faces, std::uint64_t sides, bool from_ou
     return static_cast<std::uint32_t>(faces);
 }
 
+void silhouette_of(const Volume& volume, std::vector<SilhouetteEdge>& silhouette) {
+    silhouette.clear();
+    // Each side starts with the two near vertices of its edge, the later one first.
+    const IndexRange& sides = volume.sides;
+    for (std::uint32_t i = sides.first; i < sides.first + sides.count; i += 3) {
+        const std::uint32_t to = volume.indices[i];
+        const std::uint32_t from = volume.indices[i + 1];
+        if (to % 2 != 0 || from % 2 != 0) continue;
+        const SilhouetteEdge edge{from / 2, to / 2, 1};
+        if (!silhouette.empty() && silhouette.back().from == edge.from &&
+            silhouette.back().to == edge.to) {
+            ++silhouette.back().count;
+        } else {
+            silhouette.push_back(edge);
+        }
+    }
+}
+
 std::uint32_t bound_layers(const ShadowMesh& mesh, const CastingFaces& casting,
                            std::span<const SilhouetteEdge> boundary, const LayerSpace& space) {
     const Placement placement(mesh, space);
@@ -390,6 +409,14 @@ std::uint32_t coarse_layer_bound(const ShadowMesh& mesh, const Volume& volume,
                                  const LayerSpace& space) {
     const std::uint32_t quick = quick_layer_bound(volume, seen_from_outside(mesh, space));
     const Placement placement(mesh, space);
+    const glm::vec4 light(space.light);
+    if (placement.is_local && glm::dvec4(light) == space.light) {
+        const std::size_t stride = volume.made_with.one_far_point() ? 3 : 6;
+        const auto found = internal::bound_by_upright_planes(
+            mesh, {light},
+            {std::span(volume.indices).subspan(volume.sides.first, volume.sides.count), stride});
+        if (found) return std::min(*found, quick);
+    }
     const std::optional<Axes> axes = axes_of_one_picture(placement);
     if (!axes) return quick;
     const auto found = bound_by_sheaves(placement, volume.sides, volume.indices, *axes);
@@ -398,21 +425,8 @@ std::uint32_t coarse_layer_bound(const ShadowMesh& mesh, const Volume& volume,
 }
 
 std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume, const LayerSpace& space) {
-    // Each side starts with the two near vertices of its edge, the later one first.
     std::vector<SilhouetteEdge> boundary;
-    const IndexRange& sides = volume.sides;
-    for (std::uint32_t i = sides.first; i < sides.first + sides.count; i += 3) {
-        const std::uint32_t to = volume.indices[i];
-        const std::uint32_t from = volume.indices[i + 1];
-        if (to % 2 != 0 || from % 2 != 0) continue;
-        const SilhouetteEdge edge{from / 2, to / 2, 1};
-        if (!boundary.empty() && boundary.back().from == edge.from &&
-            boundary.back().to == edge.to) {
-            ++boundary.back().count;
-        } else {
-            boundary.push_back(edge);
-        }
-    }
+    internal::silhouette_of(volume, boundary);
     // The triples of all near caps follow each other, then what is undone, and nothing more.
     const std::span<const std::uint32_t> indices(volume.indices);
     const std::uint32_t first = volume.near_cap.triples.first;

@@ -34,9 +34,10 @@ struct LayerSpace {
 
 /// Near the true number for most meshes, and far cheaper than layer_bound(): a line across the
 /// picture that the light sees, through a point under n layers, crosses the silhouette 2 n times or
-/// more. So half the most crossings of all lines in one direction are a bound; of two directions
-/// the lesser counts. quick_layer_bound() where the light is among the faces. Cost: some dozen
-/// flops a silhouette edge; allocates nothing.
+/// more. So half the most crossings of all lines in one direction are a bound. Where single
+/// precision says too little of them, or under a singular pose, two directions are looked at in
+/// double precision, and the lesser counts. quick_layer_bound() where the light is among the faces.
+/// Cost: some nanoseconds a silhouette edge; allocates nothing.
 [[nodiscard]] std::uint32_t coarse_layer_bound(const ShadowMesh& mesh, const Volume& volume,
                                                const LayerSpace& space);
 

@@ -97,8 +97,9 @@ SilhouetteDetector& detector_of(PairState& pair, const SilhouetteStrategy& strat
 // `same_kind`: the volume that the pair has was made on the same terms, for another light. `volume`
 // is null where that is empty.
 void detect(PairState& pair, const CasterState& caster, const LightState& light,
-            const FrameTerms& terms, const ChosenStrategy& chosen, bool same_kind,
-            const Volume* volume, Scratch& scratch, PairWork& work, FrameStats& stats) {
+            const FrameTerms& terms, const CapOptions& caps, const ChosenStrategy& chosen,
+            bool same_kind, const Volume* volume, Scratch& scratch, PairWork& work,
+            FrameStats& stats) {
     const ShadowMesh& mesh = *caster.mesh;
     const LightLocal current = current_light(pair, light);
     const auto start = Clock::now();
@@ -111,7 +112,7 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
 
     // A detector of the pair's own, which found what it had found for the volume that there is.
     const bool by_its_own = detector != nullptr && chosen.strategy->keeps_state;
-    VolumeOptions options{light.light.position_world.w == 0.0, work.far_vertices, terms.caps};
+    VolumeOptions options{light.light.position_world.w == 0.0, work.far_vertices, caps};
     double margin = found.margin;
     const bool on_plane = work.far_vertices == FarVertices::OnPlane;
     if (!on_plane && options.caps.far_cap == FarCap::Fan) {
@@ -126,7 +127,7 @@ void detect(PairState& pair, const CasterState& caster, const LightState& light,
                       volume->made_with.caps.far_cap == options.caps.far_cap;
     if (pair.extra != nullptr) pair.extra->detector_is_current = by_its_own;
     if (!same) {
-        auto made = std::make_shared<Volume>();
+        auto made = terms.pool != nullptr ? terms.pool->take() : std::make_shared<Volume>();
         runs_of(found.casting, scratch.runs);
         build_volume(mesh, scratch.runs, found.silhouette, options, *made, found.solid_averted);
         work.made = std::move(made);
@@ -203,6 +204,30 @@ void bound_quickly(PairState& pair, const CasterState& caster, const LightState&
     pair.set(PairFlag::FromOutside, outside);
     work.layers = quads != nullptr ? quad_layer_bound(*caster.mesh, *quads)
                                    : quick_layer_bound(volume, outside);
+    if (quads == nullptr && light.piled_up && work.layers > 1) {
+        work.layers = coarse_layer_bound(*caster.mesh, volume, space_of(pair, caster, light));
+    }
+}
+
+// Whether a cap of the pair's volume may be drawn in this frame; the technique, where that says so.
+bool may_draw_caps(const CasterState& caster, const FrameTerms& terms, PairWork& work) {
+    if (!terms.caps.when_drawn || terms.clip == nullptr || !caster.in_depth_buffer ||
+        caster.near_caps == NearCaps::Averted || caster.pose.singular ||
+        work.far_vertices == FarVertices::Finite) {
+        return true;
+    }
+    if (depth_pass_has_far_caps(work.far_vertices == FarVertices::AtInfinity, work.reach,
+                                *terms.fill.screen)) {
+        return true;
+    }
+    work.technique =
+        terms.force_technique ? *terms.force_technique : choose_technique(caster, *terms.clip);
+    return *work.technique == Technique::DepthFail;
+}
+
+CapOptions caps_for(const CasterState& caster, const FrameTerms& terms, PairWork& work) {
+    return may_draw_caps(caster, terms, work) ? terms.caps
+                                              : CapOptions::ranges_alone(terms.caps.far_cap);
 }
 
 }  // namespace
@@ -220,6 +245,22 @@ OrientedBounds bounds_of(const CasterState& caster) {
 LightLocal current_light(const PairState& pair, const LightState& light) {
     return {
         glm::vec4(glm::vec3(pair.light_exact), static_cast<float>(light.light.position_world.w))};
+}
+
+Technique choose_technique(const CasterState& caster, const NearClip& clip) {
+    // More faces would cost more to look at than depth-fail costs to draw.
+    constexpr std::size_t most_faces = 512;
+    const bool valid = clip.is_clear_of_sphere(caster.center, caster.radius) ||
+                       clip.is_clear_of(bounds_of(caster)) ||
+                       (caster.mesh->faces().size() <= most_faces &&
+                        clip.is_clear_of(*caster.mesh, caster.pose.world_from_local));
+    return valid ? Technique::DepthPass : Technique::DepthFail;
+}
+
+bool depth_pass_has_far_caps(bool far_at_infinity, const Reach& reach, const Screen& screen) {
+    return !far_at_infinity &&
+           !(reach.plane_is_last &&
+             screen.begins_below(reach.normal, plane_distance(reach, screen.eye())));
 }
 
 ChosenStrategy choose_strategy(const SilhouetteStrategy* wanted, const ShadowMesh& mesh,
@@ -313,8 +354,8 @@ void update_pair(PairState& pair, const CasterState& caster, const LightState& l
         const QuadFacing facing = chosen.strategy->quads;
         if (facing == QuadFacing::None ||
             !leave_to_gpu(pair, caster, light, facing, scratch, work, stats)) {
-            detect(pair, caster, light, terms, chosen, comparable && !asked_anew, volume, scratch,
-                   work, stats);
+            detect(pair, caster, light, terms, caps_for(caster, terms, work), chosen,
+                   comparable && !asked_anew, volume, scratch, work, stats);
         }
     } else {
         ++stats.pairs_reused;
@@ -335,8 +376,8 @@ void take_back_from_gpu(PairState& pair, const CasterState& caster, const LightS
                         const FrameTerms& terms, Scratch& scratch, PairWork& work,
                         FrameStats& stats) {
     FrameStats own;
-    detect(pair, caster, light, terms, {terms.strategy, Choice::ByName}, false, nullptr, scratch,
-           work, own);
+    detect(pair, caster, light, terms, caps_for(caster, terms, work),
+           {terms.strategy, Choice::ByName}, false, nullptr, scratch, work, own);
     bound_quickly(pair, caster, light, *work.made, nullptr, work);
     pair.set(PairFlag::Bounded, false);
     stats.detection.faces_tested += own.detection.faces_tested;

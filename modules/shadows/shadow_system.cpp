@@ -233,10 +233,6 @@ SystemMemory ShadowSystem::memory() const {
                      s.bounds_before.capacity() * sizeof(s.bounds_before[0]);
     memory.lights = s.lights.memory_bytes() + s.listed.capacity() * 4;
     memory.receivers = s.receivers.memory_bytes() + s.receiver_tree.memory_bytes();
-    const auto size_of = [](const Volume& volume) {
-        return sizeof(Volume) + volume.indices.capacity() * sizeof(std::uint32_t) +
-               volume.ranges.capacity() * sizeof(FaceRange);
-    };
     const auto size_of_quads = [](const QuadCasting& quads) -> std::size_t {
         if (quads.bits == nullptr) return 0;
         return sizeof(FaceBits) + quads.bits->capacity() * sizeof(std::uint32_t);
@@ -253,7 +249,7 @@ SystemMemory ShadowSystem::memory() const {
             const internal::PairExtra& extra = *pair.extra;
             memory.extras += sizeof extra + extra.parts.capacity() * sizeof(internal::VolumePart);
             if (extra.detector != nullptr) memory.extras += extra.detector->memory_bytes();
-            if (extra.whole != nullptr) memory.extras += size_of(*extra.whole);
+            if (extra.whole != nullptr) memory.extras += internal::bytes_of(*extra.whole);
             if (extra.whole_quads != nullptr) {
                 memory.extras += sizeof(QuadCasting) + size_of_quads(*extra.whole_quads);
             }
@@ -263,9 +259,11 @@ SystemMemory ShadowSystem::memory() const {
                    s.list.lights.capacity() * sizeof(LightDraws) +
                    s.origins.capacity() * sizeof(DrawOrigin);
     for (const VolumeDraw& draw : s.list.draws) {
-        memory.volumes += draw.quads ? size_of_quads(*draw.quads) : size_of(*draw.volume);
+        memory.volumes +=
+            draw.quads ? size_of_quads(*draw.quads) : internal::bytes_of(*draw.volume);
     }
-    memory.scratch = s.work.capacity() * sizeof(internal::PairWork) +
+    memory.scratch = s.pool.memory_bytes() + s.clips.capacity() * sizeof(internal::NearClip) +
+                     s.work.capacity() * sizeof(internal::PairWork) +
                      s.drawn.capacity() * sizeof(internal::DrawnPair) +
                      s.fills.capacity() * sizeof(State::DrawToFill) +
                      s.chunks.capacity() * sizeof(std::size_t) +

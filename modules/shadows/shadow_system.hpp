@@ -134,6 +134,9 @@ struct FrameStats {
     std::uint64_t split_lights = 0;     ///< lights with more than one batch
     DetectionStats detection;
     std::array<std::uint64_t, choice_count> choices{};  ///< redetected pairs, by Choice
+    /// Volumes made while none of their caps were drawn (CapOptions::when_drawn), whose caps were
+    /// put together this frame because one is.
+    std::uint64_t caps_made = 0;
     double detect_ms = 0.0;  ///< facing and silhouettes; of all threads together
     double build_ms = 0.0;   ///< index ranges, parts included; of all threads together
     std::array<std::uint64_t, reason_count> reasons{};  ///< pairs, by Reason
@@ -141,8 +144,9 @@ struct FrameStats {
 
 /// What to draw this frame: sorted by light key, then caster key; a caster whose volume was split
 /// has a draw for each part. Same input, same list: whatever came before, and however many threads
-/// worked on it; but for volumes with empty bounds, which are kept for when they are seen again. A
-/// copy shares the meshes and volumes.
+/// worked on it; but for volumes with empty bounds, which are kept for when they are seen again,
+/// and for how those caps are put together that none of the draws needs. A copy shares the meshes
+/// and volumes.
 struct DrawList {
     /// Changes whenever anything in lights or draws does but VolumeDraw::reason; unique in the
     /// process. 0 for a list that no system made: whoever changes a copy should say so.

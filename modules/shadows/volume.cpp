@@ -13,6 +13,8 @@
 
 #include <gnomon/shadows/layer_bound.hpp>
 
+#include "internal/layers.hpp"
+
 namespace gnomon::shadows {
 
 namespace {
@@ -176,8 +178,9 @@ struct Caps {
     Kinds faces{};
 };
 
-void add_range(std::vector<FaceRange>& ranges, const Segment& s) {
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == s.first) {
+// To those from place `first` on.
+void add_range(std::vector<FaceRange>& ranges, std::size_t first, const Segment& s) {
+    if (ranges.size() > first && ranges.back().first + ranges.back().count == s.first) {
         ranges.back().count += s.count;
     } else {
         ranges.push_back({s.first, s.count});
@@ -188,7 +191,7 @@ void add_segment(Caps& caps, const Segment& s, Kind range) {
     if (s.kind != None) caps.faces[s.kind] += std::uint64_t{s.count} * s.weight;
     std::uint32_t left = s.weight;
     if (range != None) {
-        add_range(caps.ranges[range], s);
+        add_range(caps.ranges[range], 0, s);
         if (range == s.kind) {
             --left;
         } else {
@@ -294,11 +297,48 @@ void write_near_faces(const ShadowMesh& mesh, std::span<const Segment> segments,
     }
 }
 
+// CapOptions::ranges_alone(), of faces that cast once each.
+void build_of_ranges(const ShadowMesh& mesh, std::span<const FaceRun> casting,
+                     std::span<const SilhouetteEdge> silhouette, const VolumeOptions& options,
+                     Volume& out, std::span<const std::uint8_t> solid_averted) {
+    std::uint32_t sides = 0;
+    for (const SilhouetteEdge& edge : silhouette) sides += static_cast<unsigned>(edge.count);
+    const bool one_far_point = options.one_far_point();
+    const std::uint32_t size = 3 * (one_far_point ? sides : 2 * sides);
+    out.far_cap = {0, 0};
+    out.sides = {0, size};
+    out.ranges.clear();
+    const auto add_kind = [&](CapList& list, Kind kind) {
+        list = {.triples = {size, 0},
+                .ranges = {static_cast<std::uint32_t>(out.ranges.size()), 0},
+                .undone = {size, 0}};
+        for_each_segment(mesh, casting, solid_averted, [&](const Segment& s) {
+            if (s.kind != kind) return;
+            list.faces += s.count;
+            add_range(out.ranges, list.ranges.first, s);
+        });
+        list.ranges.count = static_cast<std::uint32_t>(out.ranges.size()) - list.ranges.first;
+    };
+    add_kind(out.near_cap, Near);
+    add_kind(out.near_cap_flipped, Flipped);
+    add_kind(out.near_cap_averted, Averted);
+    out.far_copies = one_far_point ? FarCopies::None : FarCopies::OfAll;
+    out.silhouette_edges = static_cast<std::uint32_t>(silhouette.size());
+    out.made_with = options;
+    out.indices.resize(size);
+    write_sides(mesh, silhouette, one_far_point, Pen(out.indices, 0));
+}
+
 }  // namespace
 
 void build_volume(const ShadowMesh& mesh, std::span<const FaceRun> casting,
                   std::span<const SilhouetteEdge> silhouette, const VolumeOptions& options,
                   Volume& out, std::span<const std::uint8_t> solid_averted) {
+    const auto casts_once = [](const FaceRun& run) { return std::abs(run.weight) == 1; };
+    if (options.caps.are_ranges_alone() && std::ranges::all_of(casting, casts_once)) {
+        build_of_ranges(mesh, casting, silhouette, options, out, solid_averted);
+        return;
+    }
     const Caps caps = choose_caps(mesh, casting, solid_averted, options.caps);
     const bool one_far_point = options.one_far_point();
     std::uint64_t sides = 0;
@@ -306,7 +346,8 @@ void build_volume(const ShadowMesh& mesh, std::span<const FaceRun> casting,
     std::uint64_t written = 0;
     for (const std::uint64_t faces : caps.written_faces) written += faces;
     for (const std::uint64_t faces : caps.undone_faces) written += faces;
-    const bool fan = options.caps.far_cap == FarCap::Fan && !one_far_point;
+    const bool fan =
+        options.caps.far_cap == FarCap::Fan && !one_far_point && !options.caps.are_ranges_alone();
     // Few enough that a draw for them alone would cost more.
     const bool few = written < options.caps.draw_worth_faces;
 
@@ -363,6 +404,35 @@ void build_volume(const ShadowMesh& mesh, std::span<const std::int8_t> weights,
     runs_of(weights, casting);
     build_volume(mesh, casting, silhouette, {directional, far_vertices, CapOptions::plain()}, out,
                  solid_averted);
+}
+
+Volume with_caps(const ShadowMesh& mesh, const Volume& volume, const CapOptions& caps) {
+    std::vector<FaceRun> casting;
+    std::vector<std::uint8_t> solid_averted(mesh.components().size(), 0);
+    std::int32_t weight = 1;  // of the first list alone
+    for (const CapList& list : volume.near_caps()) {
+        for (const FaceRange& range :
+             std::span(volume.ranges).subspan(list.ranges.first, list.ranges.count)) {
+            casting.push_back({range.first, range.count, weight});
+        }
+        weight = -1;
+    }
+    const CapList& averted = volume.near_cap_averted;
+    for (const FaceRange& range :
+         std::span(volume.ranges).subspan(averted.ranges.first, averted.ranges.count)) {
+        for (std::uint32_t f = range.first; f < range.first + range.count; ++f) {
+            solid_averted[mesh.face_components()[f]] = 1;
+        }
+    }
+    std::ranges::sort(casting, {}, &FaceRun::first);
+    std::vector<SilhouetteEdge> silhouette;
+    internal::silhouette_of(volume, silhouette);
+    VolumeOptions options = volume.made_with;
+    options.caps = caps;
+    options.caps.far_cap = volume.made_with.caps.far_cap;
+    Volume result;
+    build_volume(mesh, casting, silhouette, options, result, solid_averted);
+    return result;
 }
 
 bool fan_is_exact(const ShadowMesh& mesh, LightLocal light, FarVertices far_vertices) {

@@ -62,10 +62,25 @@ struct CapOptions {
     /// No volume has more ranges: where it would, those that save most are taken, or others that
     /// are joined and save more.
     std::uint32_t max_ranges = 64;
+    /// ShadowSystem makes volumes of which no cap is drawn with ranges_alone(), and puts their caps
+    /// together by the other options once one is.
+    bool when_drawn = true;
 
     /// All triangles are written out, in `Volume::indices`.
     [[nodiscard]] static constexpr CapOptions plain() {
-        return {.draw_worth_faces = std::numeric_limits<std::uint32_t>::max(), .max_ranges = 0};
+        return {.draw_worth_faces = std::numeric_limits<std::uint32_t>::max(),
+                .max_ranges = 0,
+                .when_drawn = false};
+    }
+    /// No cap is written out, a fan neither: all are ranges, far caps copies of near ones. As right
+    /// as any, made in no time, and many draw calls where caps are drawn.
+    [[nodiscard]] static constexpr CapOptions ranges_alone(FarCap far_cap = FarCap::Faces) {
+        return {.far_cap = far_cap,
+                .draw_worth_faces = 0,
+                .max_ranges = std::numeric_limits<std::uint32_t>::max()};
+    }
+    [[nodiscard]] constexpr bool are_ranges_alone() const {
+        return draw_worth_faces == 0 && max_ranges == std::numeric_limits<std::uint32_t>::max();
     }
 };
 
@@ -137,6 +152,12 @@ struct Volume {
 void build_volume(const ShadowMesh& mesh, std::span<const FaceRun> casting,
                   std::span<const SilhouetteEdge> silhouette, const VolumeOptions& options,
                   Volume& out, std::span<const std::uint8_t> solid_averted = {});
+
+/// A volume of ranges alone with its caps put together by other options: what build_volume() makes
+/// of the same faces and silhouette by `caps`, but for the far cap, which is what `volume` was made
+/// with. Cost: linear in the volume, and what build_volume() costs.
+[[nodiscard]] Volume with_caps(const ShadowMesh& mesh, const Volume& volume,
+                               const CapOptions& caps);
 
 /// The plain way (CapOptions::plain), from weights by face: all triangles are in `indices`. Cost:
 /// linear in the faces as well.

@@ -101,7 +101,7 @@ TEST(IdlePairs, TakeLessThan64BytesBesideWhatIsDrawn) {
     // Nothing is left out: but for the control blocks of volumes, and what few things are not
     // counted.
     EXPECT_LE(known, all);
-    EXPECT_GT(known + pairs * 16.0, all * 0.99);
+    EXPECT_GT(known + pairs * 40.0, all * 0.99);
     EXPECT_EQ(memory.extras, 0U);
     const auto per_pair = static_cast<double>(memory.pairs + memory.scratch) / pairs;
     EXPECT_LT(per_pair, 64.0);

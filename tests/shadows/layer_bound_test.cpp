@@ -15,6 +15,7 @@
 
 #include <gnomon/shadows/facing.hpp>
 
+#include "modules/shadows/internal/upright_planes.hpp"
 #include "tests/shadows/random_meshes.hpp"
 
 namespace gnomon::shadows {
@@ -132,6 +133,7 @@ TEST(LayerBound, IsNeverBelowTheTruth) {
     int outside = 0;
     int inside = 0;
     int deep = 0;
+    int single = 0;
     double slack = 0.0;
     for (int i = 0; i < 3'000; ++i) {
         const auto mesh =
@@ -146,6 +148,17 @@ TEST(LayerBound, IsNeverBelowTheTruth) {
         const std::uint32_t coarse = coarse_layer_bound(*mesh, c.volume, c.space);
         ASSERT_GE(coarse, truth) << "mesh " << i;
         ASSERT_GE(quick, coarse) << "mesh " << i;
+        // Many edges at a time bound what one by one do.
+        const internal::SideIndices sides{
+            std::span(c.volume.indices).subspan(c.volume.sides.first, c.volume.sides.count),
+            c.volume.made_with.one_far_point() ? std::size_t{3} : std::size_t{6}};
+        const LightLocal light{glm::vec4(c.space.light)};
+        const auto upright = internal::bound_by_upright_planes(*mesh, light, sides);
+        ASSERT_EQ(upright, internal::bound_by_upright_planes_plain(*mesh, light, sides));
+        if (upright) {
+            ASSERT_GE(*upright, truth) << "mesh " << i;
+        }
+        single += upright ? 1 : 0;
         (from_outside ? outside : inside) += 1;
         deep += truth > 4 ? 1 : 0;
         slack += bound - truth;
@@ -153,6 +166,7 @@ TEST(LayerBound, IsNeverBelowTheTruth) {
     EXPECT_GT(outside, 500);
     EXPECT_GT(inside, 200);
     EXPECT_GT(deep, 300);
+    EXPECT_GT(single, 500) << "light outside, in single precision";
     EXPECT_LT(slack / 3'000, 4.0);
     RecordProperty("mean_slack_in_thousandths", static_cast<int>(slack / 3.0));
 }

@@ -135,6 +135,7 @@ TEST(Volume, WithRangesIsTheSameTriangles) {
     std::size_t limited = 0;
     std::size_t better = 0;
     std::size_t undone = 0;
+    std::size_t recapped = 0;
     Volume unlimited_volume;
     std::array<std::size_t, 3> kinds{};
     std::array<std::size_t, 3> copies{};
@@ -167,6 +168,31 @@ TEST(Volume, WithRangesIsTheSameTriangles) {
             const CapList list = volume.near_caps()[k];
             ASSERT_EQ(list.faces, plain.near_caps()[k].faces);
             kinds[k] += list.ranges.count > 0 ? 1 : 0;
+        }
+        // Ranges alone, in room that another volume had, and their caps put together after all.
+        Volume of_ranges = plain;
+        VolumeOptions alone = options;
+        alone.caps = CapOptions::ranges_alone();
+        build_volume(*mesh, casting, silhouette, alone, of_ranges, averted);
+        ASSERT_EQ(drawn(*mesh, of_ranges), drawn(*mesh, plain)) << "mesh " << i;
+        ASSERT_TRUE(is_closed(*mesh, of_ranges));
+        const bool once = std::ranges::all_of(
+            casting, [](const FaceRun& run) { return std::abs(run.weight) == 1; });
+        if (once) {
+            ASSERT_EQ(of_ranges.indices.size(), of_ranges.sides.count);
+            const Volume capped = with_caps(*mesh, of_ranges, options.caps);
+            ASSERT_EQ(capped.indices, volume.indices);
+            ASSERT_EQ(capped.ranges, volume.ranges);
+            ASSERT_EQ(capped.far_copies, volume.far_copies);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const CapList a = capped.near_caps()[k];
+                const CapList b = volume.near_caps()[k];
+                ASSERT_EQ(a.faces, b.faces);
+                ASSERT_EQ(a.ranges.count, b.ranges.count);
+                ASSERT_EQ(a.triples.count, b.triples.count);
+                ASSERT_EQ(a.undone.count, b.undone.count);
+            }
+            ++recapped;
         }
         // No worse than either extreme, nor than a range for each run that is long enough.
         const CapOptions& caps = options.caps;
@@ -202,6 +228,7 @@ TEST(Volume, WithRangesIsTheSameTriangles) {
     EXPECT_GT(limited, 300U);
     EXPECT_GT(better, 300U);
     EXPECT_GT(undone, 300U);
+    EXPECT_GT(recapped, 1'000U);
     for (const std::size_t count : kinds) EXPECT_GT(count, 50U);
     for (const std::size_t count : copies) EXPECT_GT(count, 200U);
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <gnomon/shadows/layer_bound.hpp>
 #include <gnomon/shadows/silhouette.hpp>
@@ -24,6 +25,9 @@ struct CastingFaces {
         return faces - undone.size() / 3;
     }
 };
+
+/// What the sides of a volume were made from, in their order. Replaces `silhouette`.
+void silhouette_of(const Volume& volume, std::vector<SilhouetteEdge>& silhouette);
 
 /// No more layers than this for `sides` side quads and `faces` casting faces.
 [[nodiscard]] std::uint32_t quick_bound(std::uint64_t faces, std::uint64_t sides,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,8 +24,10 @@
 
 #include "layer_grid.hpp"
 #include "local_light.hpp"
+#include "near_clip.hpp"
 #include "reach.hpp"
 #include "slots.hpp"
+#include "volume_pool.hpp"
 
 namespace gnomon::shadows::internal {
 
@@ -153,6 +156,9 @@ struct LightState : SlotHead {
     bool gained = false;        ///< this frame: there are pairs that need a draw
     bool touched = false;       ///< this frame: a pair's layers or where they lie may have changed
     bool worked_on = false;     ///< this frame: a pair may have changed
+    /// By their quick layers alone its volumes piled up too high lately: pairs that change get the
+    /// coarse bound at once.
+    bool piled_up = false;
 };
 
 /// What detection reuses from pair to pair.
@@ -178,6 +184,9 @@ struct FrameTerms {
     std::uint64_t frame = 0;
     CapOptions caps = {};
     FillTerms fill = {};
+    std::optional<Technique> force_technique = std::nullopt;
+    VolumePool* pool = nullptr;      ///< for volumes; null: each is new
+    const NearClip* clip = nullptr;  ///< the light's; null: every cap may be drawn
 };
 
 /// A pair that may have changed, and what came of it.
@@ -189,8 +198,9 @@ struct PairWork {
     Reason was = Reason::Unchanged;  ///< the pair's reason before
     bool had_volume = false;
     Reach reach = {};
-    std::shared_ptr<const Volume> made = nullptr;  ///< null: its volume stays what it was
-    std::unique_ptr<QuadCasting> quads = nullptr;  ///< VolumeDraw::quads, with `made`
+    std::optional<Technique> technique = std::nullopt;  ///< where it has been asked for
+    std::shared_ptr<const Volume> made = nullptr;       ///< null: its volume stays what it was
+    std::unique_ptr<QuadCasting> quads = nullptr;       ///< VolumeDraw::quads, with `made`
 };
 
 /// Unique in the process, never 0.
@@ -211,6 +221,15 @@ struct ChosenStrategy {
 };
 [[nodiscard]] ChosenStrategy choose_strategy(const SilhouetteStrategy* wanted,
                                              const ShadowMesh& mesh, const PairHistory& history);
+
+/// What the volumes of a caster may be drawn with, in the view and for the light of `clip`. Cost:
+/// see NearClip.
+[[nodiscard]] Technique choose_technique(const CasterState& caster, const NearClip& clip);
+
+/// Whether depth-pass has to draw far caps: at infinity they are in front of nothing, and neither
+/// are they on a plane behind all that can be seen; any others close the volume.
+[[nodiscard]] bool depth_pass_has_far_caps(bool far_at_infinity, const Reach& reach,
+                                           const Screen& screen);
 
 /// Brings the pair up to date: its reason, and in `work` a new volume where it needs one, its
 /// layers where they may be others, and its reach. A volume that cannot be seen is not made: then

@@ -33,6 +33,8 @@ struct DrawOrigin {
     bool quads = false;                          ///< the draw has some
     bool hidden = false;                         ///< its bounds are empty
     bool reach_known = false;
+    bool technique_known = false;  ///< that `technique` is right for this frame
+    bool caps_made = false;        ///< this frame, for a volume of ranges alone
     Fill fill = Fill::Not;
     internal::Reach reach = {};
 };
@@ -77,6 +79,7 @@ struct ShadowSystem::State {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> detectors;
 
     // Reused from frame to frame.
+    internal::VolumePool pool;
     std::mutex scratch_mutex;
     std::vector<std::unique_ptr<internal::Scratch>> scratches;  // that no task uses
     std::vector<internal::DrawnPair> drawn;
@@ -85,7 +88,8 @@ struct ShadowSystem::State {
         std::uint32_t light;  // its place in list.lights
     };
     std::vector<DrawToFill> fills;
-    std::vector<std::size_t> chunks;  // where those of `work` or `fills` begin, and the end
+    std::vector<internal::NearClip> clips;  // of this frame, by light slot
+    std::vector<std::size_t> chunks;        // where those of `work` or `fills` begin, and the end
 
     // shadow_system.cpp
     void submit(const Caster& caster);
@@ -102,8 +106,14 @@ struct ShadowSystem::State {
     void forget_reasons();
     void collect_work(bool all);
     void update_pairs();
-    [[nodiscard]] internal::FrameTerms terms() const {
-        return {far_vertices, strategy, frame, options.caps, fill_terms()};
+    [[nodiscard]] internal::FrameTerms terms() {
+        return {.far_vertices = far_vertices,
+                .strategy = strategy,
+                .frame = frame,
+                .caps = options.caps,
+                .fill = fill_terms(),
+                .force_technique = options.force_technique,
+                .pool = &pool};
     }
     [[nodiscard]] internal::FillTerms fill_terms() const {
         const bool known = options.receivers == Receivers::Submitted;
@@ -118,7 +128,7 @@ struct ShadowSystem::State {
     void take_from_grids(std::uint32_t caster, const OrientedBounds& bounds);
     void put_into_grids();
     [[nodiscard]] bool piles_up(internal::LightState& light);
-    [[nodiscard]] FarVertices far_vertices_of(const internal::LightState& light,
+    [[nodiscard]] internal::PairWork work_for(const internal::LightState& light,
                                               std::uint32_t caster) const;
     [[nodiscard]] bool take_back_quads(internal::LightState& light);
     [[nodiscard]] bool split_lights();
@@ -143,6 +153,8 @@ struct ShadowSystem::State {
     [[nodiscard]] bool fill_draw(std::uint32_t index, internal::LightState& light,
                                  const internal::NearClip& clip,
                                  const std::array<glm::dvec3, 8>& seen);
+    void make_caps(VolumeDraw& draw, DrawOrigin& origin, internal::PairState& pair) const;
+    void renew_revisions();
     void count_draws();
 };
 
