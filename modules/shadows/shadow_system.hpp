@@ -54,7 +54,8 @@ struct Caster {
 /// Why a pair's volume is what it is this frame.
 enum class Reason : std::uint8_t {
     Unchanged,     ///< poses are bit-equal, or differ by the rounding of their own composition:
-                   ///< nothing was done
+                   ///< nothing was detected or built, but caps that the camera now needs
+                   ///< (FrameStats::caps_made)
     WithinMargin,  ///< moved, but provably less than the silhouette needs to change: nothing was
                    ///< detected
     New,           ///< the pair was not there before
