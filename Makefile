@@ -72,7 +72,7 @@ peers: build/build.ninja ## compare with OGRE's and Irrlicht's shadows, and writ
 	@bench/peers/gnomon-peers --programs build/bin --rounds $(PEERS_ROUNDS) --out bench/results/peers.json --pictures build/peers
 	@scripts/performance-tables --peers bench/results/peers.json --document docs/performance.md
 
-savings: build ## measure what each saving of fill saves, and write bench/results/savings.json and its tables
+savings: build ## measure what each saving of fill saves, and write bench/results/savings.json and its table
 	@bench/savings/gnomon-savings --program build/bin/gnomon --models ../shared/models --out bench/results/savings.json
 	@scripts/performance-tables --savings bench/results/savings.json --document docs/performance.md
 
