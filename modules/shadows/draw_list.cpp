@@ -376,19 +376,16 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
     draw.far_caps =
         technique == Technique::DepthFail ||
         internal::depth_pass_has_far_caps(draw.extrusion.offset.w == 0.0F, reaches, *screen);
-    ScreenBounds bounds;
-    if (!caster.pose.singular) {
-        if (hidden_by(fill_terms(), hull, reaches) != internal::Hidden::No) {
-            bounds = ScreenBounds::nothing();
-        } else if (options.fill.scissor) {
-            bounds = screen->of(hull, reaches, plane);
-        }
+    if (!origin.bounds_known) {
+        ScreenBounds bounds;
+        if (!caster.pose.singular) bounds = shown_of(fill_terms(), hull, reaches).bounds;
+        differs = differs || bounds != draw.bounds;
+        draw.bounds = bounds;
     }
-    differs = differs || bounds != draw.bounds;
-    draw.bounds = bounds;
-    origin.hidden = bounds.empty();
+    origin.bounds_known = false;
+    origin.hidden = draw.bounds.empty();
     const bool draws_caps = draw.far_caps || draw.near_caps;
-    if (draws_caps && !bounds.empty() && draw.volume->made_with.caps.are_ranges_alone() &&
+    if (draws_caps && !origin.hidden && draw.volume->made_with.caps.are_ranges_alone() &&
         !options.caps.are_ranges_alone()) {
         make_caps(draw, origin, pair);
         differs = true;

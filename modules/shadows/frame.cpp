@@ -318,6 +318,8 @@ bool ShadowSystem::State::place_results() {
             origin.reach_known = true;
             origin.technique_known = item.technique.has_value();
             if (item.technique) origin.technique = *item.technique;
+            origin.bounds_known = item.shown.has_value();
+            if (item.shown) list.draws[light.first + pair.draw].bounds = item.shown->bounds;
         }
         const bool has_volume = drawn || (pair.extra != nullptr && pair.extra->whole != nullptr);
         rearranged = rearranged || item.had_volume != has_volume;

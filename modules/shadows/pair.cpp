@@ -341,10 +341,11 @@ void update_pair(PairState& pair, const CasterState& caster, const LightState& l
     }
     if (is_new) reason = Reason::New;
     if (light_is_new || asked_anew) {
-        const Hidden hidden = hull ? hidden_by(terms.fill, *hull, work.reach) : Hidden::No;
-        if (hidden != Hidden::No) {
+        if (hull) work.shown = shown_of(terms.fill, *hull, work.reach);
+        if (work.shown && work.shown->hidden != Hidden::No) {
             pair = {};
-            pair.reason = hidden == Hidden::OutOfView ? Reason::OutOfView : Reason::ReachesNothing;
+            pair.reason = work.shown->hidden == Hidden::OutOfView ? Reason::OutOfView
+                                                                  : Reason::ReachesNothing;
             return;
         }
         const PairHistory history{

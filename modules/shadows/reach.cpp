@@ -244,11 +244,16 @@ ScreenBounds Screen::of(const ShadowHull& hull, const Reach& reach, double plane
     return intersection(of(points), receivers);
 }
 
-Hidden hidden_by(const FillTerms& terms, const ShadowHull& hull, const Reach& reach) {
-    if (terms.options.cull_by_receivers && !reach.any) return Hidden::ReachesNothing;
-    if (!terms.options.cull_by_view || terms.screen == nullptr) return Hidden::No;
-    const double plane = plane_distance(reach, terms.screen->eye());
-    return terms.screen->of(hull, reach, plane).empty() ? Hidden::OutOfView : Hidden::No;
+Shown shown_of(const FillTerms& terms, const ShadowHull& hull, const Reach& reach) {
+    if (terms.options.cull_by_receivers && !reach.any) {
+        return {Hidden::ReachesNothing, ScreenBounds::nothing()};
+    }
+    const bool looks = terms.options.cull_by_view || terms.options.scissor;
+    if (terms.screen == nullptr || !looks) return {};
+    const ScreenBounds bounds =
+        terms.screen->of(hull, reach, plane_distance(reach, terms.screen->eye()));
+    if (terms.options.cull_by_view && bounds.empty()) return {Hidden::OutOfView, bounds};
+    return {Hidden::No, terms.options.scissor ? bounds : ScreenBounds{}};
 }
 
 }  // namespace gnomon::shadows::internal

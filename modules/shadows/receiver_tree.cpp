@@ -6,6 +6,17 @@
 
 namespace gnomon::shadows::internal {
 
+namespace {
+
+double size_of(std::span<const Aabb> receivers, std::span<const std::uint32_t> some) {
+    Aabb box = Aabb::nothing();
+    for (const std::uint32_t r : some) box.include(receivers[r]);
+    const glm::dvec3 extent = box.high - box.low;
+    return glm::dot(extent, extent);
+}
+
+}  // namespace
+
 void ReceiverTree::build(std::span<const Aabb> receivers) {
     nodes_.clear();
     if (receivers.empty()) return;
@@ -40,25 +51,31 @@ std::uint32_t ReceiverTree::build(std::span<const Aabb> receivers,
                          of_node.end(), [&](std::uint32_t a, std::uint32_t b) {
                              return middle(a) != middle(b) ? middle(a) < middle(b) : a < b;
                          });
-        build(receivers, of_node.first(half));
-        build(receivers, of_node.subspan(half));
+        // The larger half comes first: where a ground has said where a shadow ends, what stands
+        // on it has little to add.
+        const std::span<std::uint32_t> halves[]{of_node.first(half), of_node.subspan(half)};
+        const bool swapped = size_of(receivers, halves[1]) > size_of(receivers, halves[0]);
+        build(receivers, halves[swapped ? 1 : 0]);
+        build(receivers, halves[swapped ? 0 : 1]);
     }
     nodes_[index] = {box, static_cast<std::uint32_t>(nodes_.size()), is_leaf};
     return index;
 }
 
 void ReceiverTree::reach(const ShadowHull& hull, Reached& reached) const {
+    if (nodes_.empty()) return;
     const glm::dvec3& axis = hull.axis();
-    const auto cut = [&](const Aabb& box) {
-        return Aabb{glm::max(box.low, hull.bounds().low), glm::min(box.high, hull.bounds().high)};
-    };
+    const Aabb shadow = hull.bounds_in(bounds());
+    Aabb known{glm::max(hull.caster().low, shadow.low), glm::min(hull.caster().high, shadow.high)};
+    if (known.empty()) known = Aabb::nothing();
+    const Aabb own = known;
     std::size_t i = 0;
     while (i < nodes_.size()) {
         const Node& node = nodes_[i];
-        const Aabb within = cut(node.box);
+        const Aabb within{glm::max(node.box.low, shadow.low), glm::min(node.box.high, shadow.high)};
         const bool says_nothing_new =
-            within.empty() || (reached.any() && reached.box.holds(within) &&
-                               support(within, axis) <= reached.along_axis);
+            within.empty() ||
+            (reached.any() && known.holds(within) && support(within, axis) <= reached.along_axis);
         if (says_nothing_new || !hull.may_meet(node.box)) {
             i = node.next;
             continue;
@@ -67,8 +84,17 @@ void ReceiverTree::reach(const ShadowHull& hull, Reached& reached) const {
             const double along = support(within, axis);
             reached.along_axis = reached.any() ? std::max(reached.along_axis, along) : along;
             reached.box.include(within);
+            known.include(within);
         }
         ++i;
+    }
+    if (!reached.any()) return;
+    reached.box.include(own);
+    // Less is reached than all, and so the light's way ends sooner.
+    const Aabb closer = hull.bounds_in(reached.box);
+    if (!closer.empty()) {
+        reached.box = closer;
+        reached.along_axis = std::min(reached.along_axis, support(closer, axis));
     }
 }
 

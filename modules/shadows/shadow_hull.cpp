@@ -66,25 +66,38 @@ ShadowHull::ShadowHull(const OrientedBounds& caster, const Light& of)
             sine_ = 2.0;  // the light is within the sphere: the cone says nothing
         }
     }
+    caster_ = bounds_;
+    ways_ = directional ? Aabb{axis_, axis_} : Aabb{caster_.low - light, caster_.high - light};
     for (int axis = 0; axis < 3; ++axis) {
-        double least = directional ? way[axis] : infinity;
-        double most = directional ? way[axis] : -infinity;
-        if (!directional) {
-            for (const glm::dvec3& corner : corners_) {
-                least = std::min(least, corner[axis] - light[axis]);
-                most = std::max(most, corner[axis] - light[axis]);
-            }
-            least -= room;
-            most += room;
-        }
-        if (everything_ || least < 0.0) bounds_.low[axis] = -infinity;
-        if (everything_ || most > 0.0) bounds_.high[axis] = infinity;
+        if (everything_ || ways_.low[axis] < 0.0) bounds_.low[axis] = -infinity;
+        if (everything_ || ways_.high[axis] > 0.0) bounds_.high[axis] = infinity;
     }
     if (directional || !of.range_m) return;
     const double range = *of.range_m * (1.0 + 1e-6) + 1e-14 * glm::length(light);
     range2_ = range * range;
     bounds_.low = glm::max(bounds_.low, light - range);
     bounds_.high = glm::min(bounds_.high, light + range);
+}
+
+Aabb ShadowHull::bounds_in(const Aabb& box) const {
+    const Aabb within{glm::max(box.low, bounds_.low), glm::min(box.high, bounds_.high)};
+    if (everything_ || within.empty()) return within;
+    // Whatever has come so far along its way has left the box.
+    double last = infinity;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ways_.low[axis] > 0.0) {
+            last = std::min(last, (within.high[axis] - caster_.low[axis]) / ways_.low[axis]);
+        } else if (ways_.high[axis] < 0.0) {
+            last = std::min(last, (within.low[axis] - caster_.high[axis]) / ways_.high[axis]);
+        }
+    }
+    if (!(last < infinity)) return within;
+    if (last < 0.0) return Aabb::nothing();
+    last *= 1.0 + 1e-9;
+    const glm::dvec3 back = last * glm::min(ways_.low, glm::dvec3(0.0));
+    const glm::dvec3 on = last * glm::max(ways_.high, glm::dvec3(0.0));
+    return {glm::max(within.low, caster_.low + back - 1e-9 * glm::abs(back)),
+            glm::min(within.high, caster_.high + on + 1e-9 * glm::abs(on))};
 }
 
 bool ShadowHull::may_meet(const Aabb& box) const {

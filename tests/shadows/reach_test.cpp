@@ -108,7 +108,7 @@ TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
         const Reach reach = terms.reach(hull);
         const double plane = plane_distance(reach, screen.eye());
         const ScreenBounds bounds = screen.of(hull, reach, plane);
-        const bool hidden = hidden_by(terms, hull, reach) != Hidden::No;
+        const bool hidden = shown_of(terms, hull, reach).hidden != Hidden::No;
         clamped += reach.clamped ? 1 : 0;
         cut += bounds.everything() || bounds.empty() ? 0 : 1;
         for (int ray = 0; ray < 1'000; ++ray) {

@@ -198,6 +198,7 @@ struct PairWork {
     Reason was = Reason::Unchanged;  ///< the pair's reason before
     bool had_volume = false;
     Reach reach = {};
+    std::optional<Shown> shown = std::nullopt;          ///< where it has been asked for
     std::optional<Technique> technique = std::nullopt;  ///< where it has been asked for
     std::shared_ptr<const Volume> made = nullptr;       ///< null: its volume stays what it was
     std::unique_ptr<QuadCasting> quads = nullptr;       ///< VolumeDraw::quads, with `made`

@@ -93,7 +93,11 @@ struct FillTerms {
 };
 
 enum class Hidden : std::uint8_t { No, OutOfView, ReachesNothing };
-/// Whether a volume may be left out.
-[[nodiscard]] Hidden hidden_by(const FillTerms& terms, const ShadowHull& hull, const Reach& reach);
+/// Whether a volume may be left out, and where it is cut to.
+struct Shown {
+    Hidden hidden = Hidden::No;
+    ScreenBounds bounds;  ///< empty where hidden
+};
+[[nodiscard]] Shown shown_of(const FillTerms& terms, const ShadowHull& hull, const Reach& reach);
 
 }  // namespace gnomon::shadows::internal

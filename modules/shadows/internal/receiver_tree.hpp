@@ -15,7 +15,10 @@ class ReceiverTree {
 public:
     /// What the receivers that a hull may meet take up, together.
     struct Reached {
-        Aabb box = Aabb::nothing();  ///< cut off where the hull's own bounds end
+        /// Cut off where the hull's own bounds end. Where anything is reached the caster's own
+        /// place counts as reached as well: casters mostly receive, and of what lies between the
+        /// caster and a ground nothing needs to be looked at then.
+        Aabb box = Aabb::nothing();
         double along_axis = 0.0;  ///< the farthest along ShadowHull::axis(); where any is reached
         [[nodiscard]] bool any() const { return !box.empty(); }
     };

@@ -44,6 +44,11 @@ public:
     [[nodiscard]] bool may_meet(const Aabb& box) const;
     /// May be infinite.
     [[nodiscard]] const Aabb& bounds() const { return bounds_; }
+    /// Of the caster.
+    [[nodiscard]] const Aabb& caster() const { return caster_; }
+    /// Of what of it lies within `box`, where the light's way through that ends. Cost: some dozen
+    /// flops.
+    [[nodiscard]] Aabb bounds_in(const Aabb& box) const;
     [[nodiscard]] const std::array<glm::dvec3, 8>& corners() const { return corners_; }
     [[nodiscard]] const glm::dvec4& light() const { return light_; }
     /// The way from the light to the middle of the box; unit length.
@@ -55,6 +60,10 @@ private:
     std::array<glm::dvec3, 8> corners_{};
     glm::dvec4 light_{0.0};
     Aabb bounds_;
+    Aabb caster_;
+    // The least and the greatest way that anything takes, per unit of it: along the axis, or from
+    // the light to a corner.
+    Aabb ways_;
     bool everything_ = false;
     // The cone (or cylinder) round the sphere round the box.
     glm::dvec3 axis_{0.0, 0.0, -1.0};

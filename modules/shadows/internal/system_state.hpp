@@ -34,6 +34,7 @@ struct DrawOrigin {
     bool hidden = false;                         ///< its bounds are empty
     bool reach_known = false;
     bool technique_known = false;  ///< that `technique` is right for this frame
+    bool bounds_known = false;     ///< that the draw's bounds are
     bool caps_made = false;        ///< this frame, for a volume of ranges alone
     Fill fill = Fill::Not;
     internal::Reach reach = {};
