@@ -126,6 +126,9 @@ CommandEncoder::CommandEncoder(std::weak_ptr<DeviceState> device, std::string la
 
 RenderPassEncoder CommandEncoder::begin_render_pass(RenderPassDesc desc) {
     CommandBuffer& buffer = recording_->buffer;
+    if (const auto device = device_.lock(); device != nullptr && buffer.commands.empty()) {
+        buffer.commands.reserve(device->commands_before);
+    }
     const auto pass = static_cast<std::uint32_t>(buffer.passes.size());
     buffer.passes.push_back(std::move(desc));
     buffer.commands.emplace_back(cmd::BeginRenderPass{pass});
@@ -156,6 +159,7 @@ Result<CommandBuffer> CommandEncoder::finish() {
         return invalid("The device of {} is gone.",
                        object_name("CommandBuffer", recording->buffer.label));
     }
+    device->commands_before = recording->buffer.commands.size();
     if (const Status s = validate_commands(*device, recording->buffer, recording->misuse); !s) {
         return forward_error(s);
     }

@@ -342,10 +342,48 @@ Status Renderer::State::submit() {
     auto commands = encoder.finish();
     encoder = device->create_command_encoder("frame");
     if (!commands) return forward_error(commands);
+    return submit(*commands);
+}
+
+Status Renderer::State::submit(const gpu::CommandBuffer& commands) {
     const auto before = Clock::now();
-    const Status submitted = device->submit(*commands);
+    const Status submitted = device->submit(commands);
     times.submit_ms += milliseconds_since(before);
     return submitted;
+}
+
+void Renderer::State::find_contents(const FrameInput& input) {
+    contents.drawn.clear();
+    for (const internal::Instance& instance : instances) {
+        contents.drawn.push_back({instance.vertices->positions, instance.vertices->attributes,
+                                  instance.mesh->indices, instance.draw_offset, instance.culling});
+    }
+    contents.lights.clear();
+    for (const internal::FrameLight& light : lights) {
+        shadows::PixelRect changed;
+        if (light.draws) {
+            changed = shadows::pixels_of(input.shadows.lights[*light.draws].bounds, desc.width,
+                                         desc.height);
+        }
+        contents.lights.push_back({light.draws, changed});
+    }
+    contents.light_count = light_count;
+    contents.shadows = shadows->revision();
+    contents.draws = draws.group;
+    contents.rounds = rounds.group;
+    contents.unclipped = unclipped;
+}
+
+// Into the encoder.
+Status Renderer::State::record(const FrameInput& input) {
+    record_depth();
+    for (std::size_t round = 0; round < round_count(); ++round) {
+        if (const Status done = record_masks(input, round); !done) return done;
+        record_shading(round);
+    }
+    if (const Status done = record_overlays(); !done) return done;
+    record_picture();
+    return {};
 }
 
 Result<Renderer> Renderer::create(gpu::Device& device, const RendererDesc& desc) {
@@ -361,6 +399,7 @@ Renderer::~Renderer() = default;
 
 Status Renderer::upload(const scene::Scene& scene) {
     state_->bounds.reset();
+    state_->recorded.reset();
     return state_->gpu_scene.upload(scene);
 }
 
@@ -386,14 +425,23 @@ Status Renderer::render(const FrameInput& input) {
         return done;
     }
 
-    s.record_depth();
-    for (std::size_t round = 0; round < s.round_count(); ++round) {
-        if (const Status done = s.record_masks(input, round); !done) return done;
-        s.record_shading(round);
+    Status submitted;
+    if (input.after_light || s.desc.overlays.any()) {
+        if (const Status done = s.record(input); !done) return done;
+        submitted = s.submit();
+    } else {
+        s.find_contents(input);
+        s.times.recorded = !s.recorded || s.contents != s.recorded_contents;
+        if (s.times.recorded) {
+            s.recorded.reset();
+            if (const Status done = s.record(input); !done) return done;
+            auto commands = s.encoder.finish();
+            if (!commands) return forward_error(commands);
+            s.recorded = std::move(*commands);
+            std::swap(s.recorded_contents, s.contents);
+        }
+        submitted = s.submit(*s.recorded);
     }
-    if (const Status done = s.record_overlays(); !done) return done;
-    s.record_picture();
-    const Status submitted = s.submit();
     s.times.record_ms = milliseconds_since(start) - s.times.submit_ms - s.called_back_ms;
     return submitted;
 }

@@ -74,6 +74,9 @@ struct FrameInput {
 struct FrameTimes {
     double record_ms = 0.0;  ///< uniforms, uploads, commands, validation
     double submit_ms = 0.0;  ///< inside the device; the callback's time is in neither
+    /// False where the last frame's commands were submitted again: poses and lights may have moved,
+    /// as long as volumes and what they are cut to stayed.
+    bool recorded = true;
 };
 
 class Renderer {

@@ -88,6 +88,7 @@ Result<std::shared_ptr<const shadows::ShadowMesh>> ShadowAdapter::deformed_mesh(
 Result<std::vector<shadows::Caster>> ShadowAdapter::casters(const Scene& scene, bool culled,
                                                             shadows::NearCaps near_caps) {
     std::vector<shadows::Caster> casters;
+    casters.reserve(casters_before_);
     Status status;
     for (auto& [key, known] : deformed_) known.used = false;
     scene.registry.each<Caster, MeshInstance, WorldTransform>([&](Entity entity, const Caster&,
@@ -109,6 +110,7 @@ Result<std::vector<shadows::Caster>> ShadowAdapter::casters(const Scene& scene, 
     });
     std::erase_if(deformed_, [](const auto& entry) { return !entry.second.used; });
     if (!status) return forward_error(status);
+    casters_before_ = casters.size();
     return casters;
 }
 

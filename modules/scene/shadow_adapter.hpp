@@ -66,6 +66,7 @@ private:
         glm::vec3 max{0.0F};
         bool used = true;  // by the submit() at work
     };
+    std::size_t casters_before_ = 0;
     std::unordered_map<const Mesh*, Known> known_;
     std::unordered_map<std::uint64_t, KnownBounds> bounds_;      // by entity
     std::unordered_map<std::uint64_t, KnownDeformed> deformed_;  // by entity

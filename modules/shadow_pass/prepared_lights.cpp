@@ -71,8 +71,10 @@ void ShadowPass::State::make_keys(const shadows::DrawList& list, const shadows::
 }
 
 // Those that are `known` keep their calls.
-void ShadowPass::State::find_changed_lights(const shadows::DrawList& list, bool finite) {
-    lights.resize(list.lights.size());
+bool ShadowPass::State::find_changed_lights(const shadows::DrawList& list, bool finite) {
+    bool any = recorded_lights != list.lights.size();
+    recorded_lights = list.lights.size();
+    lights.resize(recorded_lights);
     for (std::size_t l = 0; l < lights.size(); ++l) {
         PreparedLight& light = lights[l];
         const shadows::LightDraws& draws = list.lights[l];
@@ -88,7 +90,9 @@ void ShadowPass::State::find_changed_lights(const shadows::DrawList& list, bool 
         light.draws = draws;
         light.finite = finite;
         if (!light.known) std::swap(light.keys, keys);
+        any = any || !light.known;
     }
+    return any;
 }
 
 Status ShadowPass::State::make_calls(const shadows::DrawList& list, PreparedLight& light) {

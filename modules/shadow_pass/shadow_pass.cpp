@@ -180,10 +180,13 @@ Status ShadowPass::State::prepare(const shadows::DrawList& list, const shadows::
                                   bool any_quads) {
     ++generation;
     if (const Status created = create_what_is_new(list, any_quads); !created) return created;
+    const gpu::BufferId matrices = instances.buffer();
     if (const Status written = instances.update(list, view, stats.uploaded_bytes); !written) {
         return written;
     }
-    find_changed_lights(list, view.projection != shadows::ProjectionKind::InfinitePerspective);
+    const bool finite = view.projection != shadows::ProjectionKind::InfinitePerspective;
+    const bool changed = find_changed_lights(list, finite) || matrices != instances.buffer();
+    if (changed || recording_revision == 0) ++recording_revision;
     // What changed frees its old indices first, so that the new ones find the room.
     for (const PreparedLight& light : lights) {
         if (light.known) {
@@ -238,6 +241,7 @@ std::vector<gpu::VertexBufferLayout> ShadowPass::vertex_layouts() const {
     return state_->vertex_layouts();
 }
 
+std::uint64_t ShadowPass::revision() const { return state_->recording_revision; }
 const PassStats& ShadowPass::stats() const { return state_->stats; }
 
 }  // namespace gnomon::shadow_pass

@@ -147,6 +147,10 @@ public:
     /// target's size, the scissor changed: it covers the target.
     void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
 
+    /// Another after each prepare() that changed what record() records. While it stays, and the
+    /// list's lights do, a host may submit again what it recorded: what moved lies in buffers.
+    [[nodiscard]] std::uint64_t revision() const;
+
     /// Draws what record() draws, the same triangles under the same scissors, so that the samples
     /// of `fill` pass and no others do: within an occlusion query of the caller's their number is
     /// exact, whatever the device (count_fill() in fill_meter.hpp does all of it). Depth is read

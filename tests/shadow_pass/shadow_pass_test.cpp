@@ -125,6 +125,33 @@ TEST(ShadowPass, uploads_nothing_when_nothing_moved) {
     EXPECT_EQ(recorded_draws(device, pass), 4U);
 }
 
+TEST(ShadowPass, says_when_what_was_recorded_is_good_for_another_frame) {
+    gpu::Device device(gpu::create_null_backend());
+    ShadowPass pass = *ShadowPass::create(device, {});
+    World world;
+    shadows::View view = perspective_view();
+    EXPECT_EQ(pass.revision(), 0U);
+    std::uint64_t before = 0;
+    const auto changes = [&] {
+        EXPECT_TRUE(pass.prepare(world.frame(view), view));
+        return std::exchange(before, pass.revision()) != before;
+    };
+    EXPECT_TRUE(changes());
+    EXPECT_FALSE(changes());
+    view.view_from_world[3].x += 0.001;
+    EXPECT_FALSE(changes()) << "of a camera that moves, matrices alone";
+    world.angle = 2.0;
+    EXPECT_TRUE(changes()) << "other indices";
+    world.casters = 4;
+    EXPECT_TRUE(changes());
+    world.casters = 400;
+    EXPECT_TRUE(changes()) << "another buffer of matrices too";
+    EXPECT_FALSE(changes());
+    shadows::DrawList none;
+    EXPECT_TRUE(pass.prepare(none, view));
+    EXPECT_NE(pass.revision(), before);
+}
+
 TEST(ShadowPass, uploads_the_indices_of_what_turned) {
     gpu::Device device(gpu::create_null_backend());
     ShadowPass pass = *ShadowPass::create(device, {});

@@ -5,6 +5,7 @@
 // backend.
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <memory>
 #include <string>
@@ -73,6 +74,9 @@ public:
     [[nodiscard]] const Caps& caps() const { return backend_->caps(); }
     [[nodiscard]] std::uint64_t objects_alive() const;
 
+    /// How many commands the last encoder recorded: the next, mostly a frame later, will need room
+    /// for as many.
+    std::atomic<std::size_t> commands_before = 0;
     DeviceCounters counters;  ///< objects_alive is left out: the tables know it
 
 private:

@@ -31,6 +31,28 @@ struct Instance {
     Culling culling = Culling::None;
 };
 
+/// All that the commands of a frame depend on, beside what is uploaded once.
+struct FrameContents {
+    struct Drawn {
+        gpu::BufferId positions, attributes, indices;
+        std::uint32_t draw_offset = 0;
+        Culling culling = Culling::None;
+        bool operator==(const Drawn&) const = default;
+    };
+    struct Light {
+        std::optional<std::size_t> draws;
+        shadows::PixelRect changed;
+        bool operator==(const Light&) const = default;
+    };
+    std::vector<Drawn> drawn;
+    std::vector<Light> lights;
+    std::size_t light_count = 0;
+    std::uint64_t shadows = 0;  ///< ShadowPass::revision()
+    gpu::BindGroupId draws, rounds;
+    bool unclipped = false;
+    bool operator==(const FrameContents&) const = default;
+};
+
 /// A uniform buffer that grows, and its bind group.
 struct Uniforms {
     gpu::Buffer buffer;
@@ -61,6 +83,10 @@ struct Renderer::State {
     std::size_t light_count = 0;               // of the last frame's draw list
     FrameTimes times;
     gpu::CommandEncoder encoder;
+    // The last frame, to be submitted again where its commands would be the same.
+    std::optional<gpu::CommandBuffer> recorded;
+    internal::FrameContents recorded_contents;
+    internal::FrameContents contents;
     double called_back_ms = 0.0;
 
     State(gpu::Device& d, const RendererDesc& description)
@@ -90,7 +116,10 @@ struct Renderer::State {
     void record_fill();
     Status record_overlays();
     void record_picture();
+    void find_contents(const FrameInput& input);
+    Status record(const FrameInput& input);
     Status submit();
+    Status submit(const gpu::CommandBuffer& commands);
 };
 
 }  // namespace gnomon::render

@@ -70,6 +70,8 @@ struct ShadowPass::State {
     shadows::View prepared_view;
     TargetSize target;  // zero: not known
     std::vector<PreparedLight> lights;
+    std::uint64_t recording_revision = 0;  // of what record() records
+    std::size_t recorded_lights = 0;
     PassStats stats;
     // Between two lights' worth of work, for their memory alone.
     std::vector<Run> runs;
@@ -92,7 +94,8 @@ struct ShadowPass::State {
     void forget();
 
     // Light by light (prepared_lights.cpp).
-    void find_changed_lights(const shadows::DrawList& list, bool finite);
+    /// False where all are as they were.
+    bool find_changed_lights(const shadows::DrawList& list, bool finite);
     void make_keys(const shadows::DrawList& list, const shadows::LightDraws& light,
                    const PreparedLight* before);
     Status make_calls(const shadows::DrawList& list, PreparedLight& light);
