@@ -112,6 +112,7 @@ bool has_four_samples(const GlFunctions& gl, gpu::Format format) {
 gpu::Features read_features(const GlFunctions& gl, const Extensions& extensions) {
     gpu::Features features;
     features.unclipped_depth = extensions.has("GL_ARB_depth_clamp", 3, 2);
+    features.depth_bounds = gl.DepthBoundsEXT != nullptr;
     if (extensions.has("GL_ARB_timer_query", 3, 3)) {
         GLint bits = 0;
         gl.GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
@@ -185,6 +186,12 @@ Result<Adapter> open_adapter(const Context& context, const BackendOptions& optio
     if (extensions.has("GL_ARB_polygon_offset_clamp", 4, 6)) {
         if (const Status loaded =
                 load_function(context, gl.PolygonOffsetClamp, "glPolygonOffsetClamp");
+            !loaded) {
+            return forward_error(loaded);
+        }
+    }
+    if (extensions.has("GL_EXT_depth_bounds_test")) {
+        if (const Status loaded = load_function(context, gl.DepthBoundsEXT, "glDepthBoundsEXT");
             !loaded) {
             return forward_error(loaded);
         }

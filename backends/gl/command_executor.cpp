@@ -79,6 +79,7 @@ Status CommandExecutor::bind_attachments(const gpu::RenderPassDesc& pass) {
                          .height = static_cast<float>(any->height),
                          .min_depth = 0.0F,
                          .max_depth = 1.0F});
+    state_.set_depth_bounds({});
     return {};
 }
 
@@ -215,6 +216,10 @@ void CommandExecutor::operator()(const gpu::cmd::SetViewport& command) {
 
 void CommandExecutor::operator()(const gpu::cmd::SetScissorRect& command) {
     state_.set_scissor(command);
+}
+
+void CommandExecutor::operator()(const gpu::cmd::SetDepthBounds& command) {
+    state_.set_depth_bounds(command);
 }
 
 GlStencil CommandExecutor::current_stencil() const {

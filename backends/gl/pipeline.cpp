@@ -66,6 +66,7 @@ GlDepth translate_depth(const gpu::RenderPipelineDesc& desc) {
     const gpu::DepthStencilState& state = *desc.depth_stencil;
     depth.write = state.depth_write_enabled;
     depth.compare = to_gl(state.depth_compare);
+    depth.bounded = state.depth_bounds_test;
     // Without the test GL does not write either.
     depth.enabled = depth.write || depth.compare != GL_ALWAYS;
     depth.bias = {.slope_scale = state.depth_bias_slope_scale,

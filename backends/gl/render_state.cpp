@@ -67,6 +67,7 @@ void RenderState::end() {
              GL_SCISSOR_TEST, GL_BLEND, GL_FRAMEBUFFER_SRGB}) {
         gl_.Disable(off);
     }
+    if (gl_.DepthBoundsEXT != nullptr) gl_.Disable(depth_bounds_test_ext);
     gl_.Enable(GL_DITHER);
     gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl_.DepthMask(GL_TRUE);
@@ -87,7 +88,8 @@ void RenderState::forget_masks() {
 
 void RenderState::set_enabled(Capability capability, bool on) {
     static constexpr std::array<GLenum, Capability::Count> names{
-        GL_CULL_FACE, GL_DEPTH_TEST, GL_DEPTH_CLAMP, GL_STENCIL_TEST, GL_POLYGON_OFFSET_FILL};
+        GL_CULL_FACE,    GL_DEPTH_TEST,          GL_DEPTH_CLAMP,
+        GL_STENCIL_TEST, GL_POLYGON_OFFSET_FILL, depth_bounds_test_ext};
     if (!enabled_[capability].change(on)) return;
     if (on) {
         gl_.Enable(names[capability]);
@@ -117,6 +119,8 @@ void RenderState::set_cull(gpu::CullMode mode) {
 void RenderState::set_depth(const GlDepth& depth) {
     set_enabled(DepthTest, depth.enabled);
     set_enabled(DepthClamp, depth.unclipped);
+    // Where the driver has no such test its name is unknown.
+    if (gl_.DepthBoundsEXT != nullptr) set_enabled(DepthBounds, depth.bounded);
     if (depth_compare_.change(depth.compare)) gl_.DepthFunc(depth.compare);
     if (depth_write_.change(depth.write)) gl_.DepthMask(to_boolean(depth.write));
     set_enabled(PolygonOffset, depth.bias.enabled());
@@ -227,6 +231,11 @@ void RenderState::set_scissor(const gpu::cmd::SetScissorRect& scissor) {
     gl_.Enable(GL_SCISSOR_TEST);
     gl_.ScissorIndexed(0, static_cast<GLint>(scissor.x), static_cast<GLint>(scissor.y),
                        static_cast<GLsizei>(scissor.width), static_cast<GLsizei>(scissor.height));
+}
+
+void RenderState::set_depth_bounds(const gpu::cmd::SetDepthBounds& bounds) {
+    if (gl_.DepthBoundsEXT == nullptr) return;
+    gl_.DepthBoundsEXT(static_cast<GLdouble>(bounds.min), static_cast<GLdouble>(bounds.max));
 }
 
 void RenderState::set_blend_constant(const gpu::Color& color) {

@@ -17,9 +17,11 @@ namespace gnomon::vk {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> feature_names = {
-    "depthClamp", "depthBiasClamp",     "independentBlend",  "occlusionQueryPrecise", "sampleRate",
-    "timestamps", "D32_SFLOAT_S8_UINT", "D24_UNORM_S8_UINT", "sampledStencil"};
+constexpr std::array<std::string_view, 10> feature_names = {
+    "depthClamp",       "depthBiasClamp",        "depthBounds",
+    "independentBlend", "occlusionQueryPrecise", "sampleRate",
+    "timestamps",       "D32_SFLOAT_S8_UINT",    "D24_UNORM_S8_UINT",
+    "sampledStencil"};
 
 class Disabled {
 public:
@@ -140,6 +142,7 @@ gpu::Features find_features(const Instance& instance, const Adapter& adapter,
     };
     gpu::Features f;
     f.unclipped_depth = adapter.enabled.depthClamp == VK_TRUE;
+    f.depth_bounds = adapter.enabled.depthBounds == VK_TRUE;
     f.occlusion_query = adapter.enabled.occlusionQueryPrecise == VK_TRUE;
     f.timestamp_query = adapter.timestamp_bits != 0 && limits.timestampPeriod > 0.0F;
     f.depth32float_stencil8 =
@@ -231,6 +234,7 @@ Result<Adapter> examine(const Instance& instance, VkPhysicalDevice device,
     };
     take(&VkPhysicalDeviceFeatures::depthClamp, "depthClamp");
     take(&VkPhysicalDeviceFeatures::depthBiasClamp, "depthBiasClamp");
+    take(&VkPhysicalDeviceFeatures::depthBounds, "depthBounds");
     take(&VkPhysicalDeviceFeatures::independentBlend, "independentBlend");
     take(&VkPhysicalDeviceFeatures::occlusionQueryPrecise, "occlusionQueryPrecise");
     take(&VkPhysicalDeviceFeatures::sampleRateShading, "sampleRate");

@@ -111,6 +111,10 @@ void CommandRecorder::visit(const gpu::cmd::SetScissorRect& command) {
     device_.fn.CmdSetScissor(out_, 0, 1, &scissor);
 }
 
+void CommandRecorder::visit(const gpu::cmd::SetDepthBounds& command) {
+    device_.fn.CmdSetDepthBounds(out_, command.min, command.max);
+}
+
 void CommandRecorder::visit(const gpu::cmd::Draw& command) {
     bind_stale_groups();
     device_.fn.CmdDraw(out_, command.vertex_count, command.instance_count, command.first_vertex,

@@ -252,6 +252,7 @@ void CommandRecorder::set_default_state(std::uint32_t width, std::uint32_t heigh
     visit(gpu::cmd::SetViewport{
         .x = 0, .y = 0, .width = static_cast<float>(width), .height = static_cast<float>(height)});
     visit(gpu::cmd::SetScissorRect{.x = 0, .y = 0, .width = width, .height = height});
+    visit(gpu::cmd::SetDepthBounds{});
     visit(gpu::cmd::SetStencilReference{});
     visit(gpu::cmd::SetBlendConstant{});
 }

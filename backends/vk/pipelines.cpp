@@ -58,11 +58,13 @@ VkPipelineDepthStencilStateCreateInfo depth_stencil(const gpu::DepthStencilState
     VkPipelineDepthStencilStateCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     // With depth testing off Vulkan writes no depth either.
-    info.depthTestEnable = state.depth_compare != gpu::Compare::Always || state.depth_write_enabled
-                               ? VK_TRUE
-                               : VK_FALSE;
+    // SwiftShader looks at no bounds without it.
+    const bool tested = state.depth_compare != gpu::Compare::Always || state.depth_write_enabled ||
+                        state.depth_bounds_test;
+    info.depthTestEnable = tested ? VK_TRUE : VK_FALSE;
     info.depthWriteEnable = state.depth_write_enabled ? VK_TRUE : VK_FALSE;
     info.depthCompareOp = to_vk(state.depth_compare);
+    info.depthBoundsTestEnable = state.depth_bounds_test ? VK_TRUE : VK_FALSE;
     info.stencilTestEnable = gpu::has_stencil(state.format) ? VK_TRUE : VK_FALSE;
     info.front = stencil_face(state.stencil_front, state);
     info.back = stencil_face(state.stencil_back, state);
@@ -213,9 +215,9 @@ Result<Pipeline> PipelineMaker::make(const gpu::RenderPipelineDesc& desc,
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     blend.attachmentCount = static_cast<std::uint32_t>(targets.size());
     blend.pAttachments = targets.data();
-    constexpr std::array<VkDynamicState, 4> dynamic_states{
+    constexpr std::array<VkDynamicState, 5> dynamic_states{
         VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_STENCIL_REFERENCE,
-        VK_DYNAMIC_STATE_BLEND_CONSTANTS};
+        VK_DYNAMIC_STATE_BLEND_CONSTANTS, VK_DYNAMIC_STATE_DEPTH_BOUNDS};
     VkPipelineDynamicStateCreateInfo dynamic{};
     dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
     dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states.size());

@@ -10,7 +10,8 @@ namespace gnomon::gpu {
 
 struct Features {
     bool unclipped_depth =
-        false;  ///< depth clamping instead of clipping (WebGPU: depth-clip-control)
+        false;                  ///< depth clamping instead of clipping (WebGPU: depth-clip-control)
+    bool depth_bounds = false;  ///< DepthStencilState::depth_bounds_test (not in WebGPU)
     bool timestamp_query = false;
     bool occlusion_query = false;  ///< exact sample counts
     bool depth24unorm_stencil8 = false;

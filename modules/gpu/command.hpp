@@ -56,6 +56,9 @@ struct SetViewport {
 struct SetScissorRect {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
 };
+struct SetDepthBounds {
+    float min = 0, max = 1;
+};
 struct Draw {
     std::uint32_t vertex_count = 0, instance_count = 1, first_vertex = 0, first_instance = 0;
 };
@@ -85,8 +88,8 @@ struct CopyBufferToBuffer {
 using Command =
     std::variant<cmd::BeginRenderPass, cmd::EndRenderPass, cmd::SetPipeline, cmd::SetBindGroup,
                  cmd::SetVertexBuffer, cmd::SetIndexBuffer, cmd::SetStencilReference,
-                 cmd::SetBlendConstant, cmd::SetViewport, cmd::SetScissorRect, cmd::Draw,
-                 cmd::DrawIndexed, cmd::BeginOcclusionQuery, cmd::EndOcclusionQuery,
+                 cmd::SetBlendConstant, cmd::SetViewport, cmd::SetScissorRect, cmd::SetDepthBounds,
+                 cmd::Draw, cmd::DrawIndexed, cmd::BeginOcclusionQuery, cmd::EndOcclusionQuery,
                  cmd::PushDebugGroup, cmd::PopDebugGroup, cmd::CopyBufferToBuffer>;
 
 struct CommandBuffer {

@@ -116,6 +116,9 @@ struct DepthStencilState {
     std::int32_t depth_bias = 0;
     float depth_bias_slope_scale = 0.0F;
     float depth_bias_clamp = 0.0F;
+    /// Samples whose stored depth is not within RenderPassEncoder::set_depth_bounds() are left
+    /// alone, stencil included. Needs Features::depth_bounds.
+    bool depth_bounds_test = false;
 };
 
 struct BlendComponent {

@@ -90,6 +90,10 @@ void RenderPassEncoder::set_scissor_rect(std::uint32_t x, std::uint32_t y, std::
     record("set_scissor_rect", cmd::SetScissorRect{x, y, width, height});
 }
 
+void RenderPassEncoder::set_depth_bounds(float min, float max) {
+    record("set_depth_bounds", cmd::SetDepthBounds{min, max});
+}
+
 void RenderPassEncoder::draw(std::uint32_t vertex_count, std::uint32_t instance_count,
                              std::uint32_t first_vertex, std::uint32_t first_instance) {
     record("draw", cmd::Draw{vertex_count, instance_count, first_vertex, first_instance});

@@ -38,6 +38,9 @@ public:
                       float max_depth = 1.0F);
     void set_scissor_rect(std::uint32_t x, std::uint32_t y, std::uint32_t width,
                           std::uint32_t height);
+    /// What DepthStencilState::depth_bounds_test lets through, within 0..1; everything at the
+    /// beginning of a pass. Needs Features::depth_bounds.
+    void set_depth_bounds(float min, float max);
     void draw(std::uint32_t vertex_count, std::uint32_t instance_count = 1,
               std::uint32_t first_vertex = 0, std::uint32_t first_instance = 0);
     void draw_indexed(std::uint32_t index_count, std::uint32_t instance_count = 1,

@@ -13,6 +13,7 @@ namespace gnomon::gpu {
 
 struct NullBackendOptions {
     Features features = {.unclipped_depth = true,
+                         .depth_bounds = true,
                          .timestamp_query = true,
                          .occlusion_query = true,
                          .depth24unorm_stencil8 = true,

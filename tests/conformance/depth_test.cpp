@@ -152,6 +152,35 @@ TEST_P(Depth, UnclippedDepthIsClamped) {
     }
 }
 
+// What is stored decides, not what is drawn; and the stencil is left alone as well.
+TEST_P(Depth, BoundsLetThroughWhatIsStoredWithin) {
+    if (!features().depth_bounds) GTEST_SKIP() << "no depth_bounds";
+    // Not by depth_fail_op: SwiftShader counts what is outside as depth that fails.
+    const gpu::StencilFaceState count{.pass_op = gpu::StencilOp::IncrementWrap};
+    const auto stored = [&](const std::optional<gpu::cmd::SetDepthBounds>& bounds, bool tested) {
+        Painting painting(device(), {.clear_depth = 0.25F});
+        Step right = at(0.75F, write);
+        right.scissor = gpu::cmd::SetScissorRect{2, 0, 2, 4};
+        Step counting = at(0.5F, {.depth_compare = Compare::Always,
+                                  .stencil_front = count,
+                                  .stencil_back = count,
+                                  .depth_bounds_test = tested});
+        counting.depth_bounds = bounds;
+        painting.paint({right, counting});
+        const auto stencil = painting.stencil();
+        EXPECT_EQ(stencil[0], stencil[1]);
+        EXPECT_EQ(stencil[2], stencil[3]);
+        return std::pair{int{stencil[0]}, int{stencil[3]}};  // where 0.25 is stored, and 0.75
+    };
+    using Pair = std::pair<int, int>;
+    EXPECT_EQ(stored(std::nullopt, true), Pair(1, 1)) << "all, at the beginning of a pass";
+    EXPECT_EQ(stored(gpu::cmd::SetDepthBounds{0.0F, 0.5F}, true), Pair(1, 0));
+    EXPECT_EQ(stored(gpu::cmd::SetDepthBounds{0.5F, 1.0F}, true), Pair(0, 1));
+    EXPECT_EQ(stored(gpu::cmd::SetDepthBounds{0.25F, 0.75F}, true), Pair(1, 1)) << "inclusive";
+    EXPECT_EQ(stored(gpu::cmd::SetDepthBounds{0.3F, 0.7F}, true), Pair(0, 0));
+    EXPECT_EQ(stored(gpu::cmd::SetDepthBounds{0.3F, 0.7F}, false), Pair(1, 1)) << "not tested";
+}
+
 TEST_P(Depth, ViewportMapsTheDepthRange) {
     for (const auto& [z, expected] :
          {std::pair(0.0F, 0.25F), std::pair(0.5F, 0.5F), std::pair(1.0F, 0.75F)}) {

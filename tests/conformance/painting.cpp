@@ -136,6 +136,9 @@ void Painting::run(const std::vector<Step>& steps, gpu::LoadOp load_op, gpu::Que
             const gpu::cmd::SetScissorRect scissor =
                 step.scissor.value_or(gpu::cmd::SetScissorRect{0, 0, desc_.width, desc_.height});
             pass.set_scissor_rect(scissor.x, scissor.y, scissor.width, scissor.height);
+            if (step.depth_bounds) {
+                pass.set_depth_bounds(step.depth_bounds->min, step.depth_bounds->max);
+            }
             if (step.occlusion_query) pass.begin_occlusion_query(*step.occlusion_query);
             pass.draw(static_cast<std::uint32_t>(step.vertices.size()));
             if (step.occlusion_query) pass.end_occlusion_query();

@@ -43,6 +43,7 @@ struct Step {
     std::uint32_t stencil_reference = 0;
     std::optional<gpu::cmd::SetViewport> viewport = std::nullopt;
     std::optional<gpu::cmd::SetScissorRect> scissor = std::nullopt;
+    std::optional<gpu::cmd::SetDepthBounds> depth_bounds = std::nullopt;  ///< else left alone
     gpu::Color blend_constant = {};
     std::optional<std::uint32_t> occlusion_query = std::nullopt;
 };

@@ -218,7 +218,10 @@ private:
             case 10: return pass.begin_occlusion_query(count());
             case 11: return pass.end_occlusion_query();
             case 12: return input_.flag() ? pass.push_debug_group("group") : pass.pop_debug_group();
-            default: return sometimes() ? pass.end() : pass.set_blend_constant({});
+            default:
+                if (sometimes()) return pass.end();
+                if (input_.flag()) return pass.set_blend_constant({});
+                return pass.set_depth_bounds(input_.value<float>(), input_.value<float>());
         }
     }
 

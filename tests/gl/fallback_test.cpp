@@ -84,6 +84,7 @@ TEST_F(Fallbacks, SwitchedOffExtensionsTakeTheirFeatureAlong) {
     };
     for (const Row& row : {Row{"GL_ARB_stencil_texturing", &gpu::Features::sampled_stencil},
                            Row{"GL_ARB_depth_clamp", &gpu::Features::unclipped_depth},
+                           Row{"GL_EXT_depth_bounds_test", &gpu::Features::depth_bounds},
                            Row{"GL_ARB_timer_query", &gpu::Features::timestamp_query},
                            Row{"GL_ARB_occlusion_query", &gpu::Features::occlusion_query},
                            Row{"GL_ARB_texture_multisample", &gpu::Features::multisample_4}}) {
@@ -92,9 +93,10 @@ TEST_F(Fallbacks, SwitchedOffExtensionsTakeTheirFeatureAlong) {
         EXPECT_FALSE(device.caps().features.*row.feature);
         // and nothing else
         gpu::Features rest = device.caps().features;
-        rest.*row.feature = true;
+        rest.*row.feature = all.*row.feature;
         EXPECT_EQ(rest.sampled_stencil, all.sampled_stencil);
         EXPECT_EQ(rest.unclipped_depth, all.unclipped_depth);
+        EXPECT_EQ(rest.depth_bounds, all.depth_bounds);
         EXPECT_EQ(rest.timestamp_query, all.timestamp_query);
         EXPECT_EQ(rest.occlusion_query, all.occlusion_query);
         EXPECT_EQ(rest.multisample_4, all.multisample_4);

@@ -113,6 +113,7 @@ TEST_F(Command, PassCommandsBelongInsideOfAPass) {
         {cmd::SetBlendConstant{}, "set_blend_constant"},
         {cmd::SetViewport{}, "set_viewport"},
         {cmd::SetScissorRect{}, "set_scissor_rect"},
+        {cmd::SetDepthBounds{}, "set_depth_bounds"},
         {cmd::Draw{}, "draw"},
         {cmd::DrawIndexed{}, "draw_indexed"},
         {cmd::BeginOcclusionQuery{}, "begin_occlusion_query"},
@@ -269,6 +270,31 @@ TEST_F(Command, ScissorRect) {
         expect_in_pass(
             [&](RenderPassEncoder& p) { p.set_scissor_rect(c.s.x, c.s.y, c.s.width, c.s.height); },
             "set_scissor_rect", 1, c.message);
+    }
+}
+
+TEST_F(Command, DepthBounds) {
+    struct Case {
+        float min;
+        float max;
+        std::string message;
+    };
+    const auto no_interval = [](const char* bounds) {
+        return std::string("The depth bounds (") + bounds + ") are not an interval within 0 and 1.";
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<Case> cases = {
+        {0, 1, valid},
+        {0.5F, 0.5F, valid},
+        {-0.5F, 1, no_interval("-0.5 to 1")},
+        {0, 1.5F, no_interval("0 to 1.5")},
+        {0.75F, 0.5F, no_interval("0.75 to 0.5")},
+        {nan, 1, no_interval("nan to 1")},
+        {0, nan, no_interval("0 to nan")},
+    };
+    for (const Case& c : cases) {
+        expect_in_pass([&](RenderPassEncoder& p) { p.set_depth_bounds(c.min, c.max); },
+                       "set_depth_bounds", 1, c.message);
     }
 }
 

@@ -208,6 +208,8 @@ TEST(PipelineFeatures, AreThoseOfTheAdapter) {
     const std::vector<Case> cases = {
         {&Features::unclipped_depth, [](auto& d) { d.primitive.unclipped_depth = true; },
          "[RenderPipeline \"pipeline\"] uses unclipped_depth, which this adapter does not have."},
+        {&Features::depth_bounds, [](auto& d) { d.depth_stencil->depth_bounds_test = true; },
+         "[RenderPipeline \"pipeline\"] uses depth_bounds_test, which this adapter does not have."},
         {&Features::multisample_4, [](auto& d) { d.sample_count = 4; },
          "The sample count of [RenderPipeline \"pipeline\"] is 4, but this adapter has no "
          "multisample_4."},

@@ -88,6 +88,7 @@ struct FeatureCase {
 TEST_F(Adapter, LosesTheFeaturesThatAreDisabled) {
     for (const auto& [name, feature] : {
              FeatureCase{"depthClamp", &gpu::Features::unclipped_depth},
+             FeatureCase{"depthBounds", &gpu::Features::depth_bounds},
              FeatureCase{"occlusionQueryPrecise", &gpu::Features::occlusion_query},
              FeatureCase{"timestamps", &gpu::Features::timestamp_query},
              FeatureCase{"sampleRate", &gpu::Features::multisample_4},

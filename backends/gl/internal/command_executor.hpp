@@ -34,6 +34,7 @@ public:
     void operator()(const gpu::cmd::SetBlendConstant& command);
     void operator()(const gpu::cmd::SetViewport& command);
     void operator()(const gpu::cmd::SetScissorRect& command);
+    void operator()(const gpu::cmd::SetDepthBounds& command);
     void operator()(const gpu::cmd::Draw& command);
     void operator()(const gpu::cmd::DrawIndexed& command);
     void operator()(const gpu::cmd::BeginOcclusionQuery& command);

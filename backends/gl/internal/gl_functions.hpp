@@ -46,6 +46,10 @@ namespace gnomon::gl {
 inline constexpr GLenum stencil_test_two_side_ext = 0x8910;
 using ActiveStencilFaceExt = void(APIENTRY*)(GLenum face);
 
+// GL_EXT_depth_bounds_test: the same.
+inline constexpr GLenum depth_bounds_test_ext = 0x8890;
+using DepthBoundsExt = void(APIENTRY*)(GLdouble min, GLdouble max);
+
 struct GlFunctions {
 #define GNOMON_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
     GNOMON_GL_REQUIRED_FUNCTIONS(GNOMON_GL_MEMBER)
@@ -56,6 +60,7 @@ struct GlFunctions {
     decltype(&::glPolygonOffsetClamp) PolygonOffsetClamp = nullptr;
     decltype(&::glGetGraphicsResetStatus) GetGraphicsResetStatus = nullptr;
     ActiveStencilFaceExt ActiveStencilFaceEXT = nullptr;
+    DepthBoundsExt DepthBoundsEXT = nullptr;
 };
 
 /// Loads one entry point; the error names it.

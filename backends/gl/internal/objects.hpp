@@ -134,6 +134,7 @@ struct GlDepth {
     bool write = false;
     GLenum compare = GL_ALWAYS;
     bool unclipped = false;
+    bool bounded = false;
     GlDepthBias bias;
 };
 

@@ -52,12 +52,21 @@ public:
     void set_texture(const TextureBinding& binding);
     void set_viewport(const gpu::cmd::SetViewport& viewport);
     void set_scissor(const gpu::cmd::SetScissorRect& scissor);
+    void set_depth_bounds(const gpu::cmd::SetDepthBounds& bounds);
     void set_blend_constant(const gpu::Color& color);
 
     static constexpr std::size_t max_color_targets = 8;
 
 private:
-    enum Capability { CullFace, DepthTest, DepthClamp, StencilTest, PolygonOffset, Count };
+    enum Capability {
+        CullFace,
+        DepthTest,
+        DepthClamp,
+        StencilTest,
+        PolygonOffset,
+        DepthBounds,
+        Count
+    };
 
     void set_enabled(Capability capability, bool on);
     void set_depth(const GlDepth& depth);

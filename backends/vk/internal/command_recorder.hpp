@@ -51,6 +51,7 @@ private:
     void visit(const gpu::cmd::SetBlendConstant& command);
     void visit(const gpu::cmd::SetViewport& command);
     void visit(const gpu::cmd::SetScissorRect& command);
+    void visit(const gpu::cmd::SetDepthBounds& command);
     void visit(const gpu::cmd::Draw& command);
     void visit(const gpu::cmd::DrawIndexed& command);
     void visit(const gpu::cmd::BeginOcclusionQuery& command);

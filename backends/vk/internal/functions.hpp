@@ -71,6 +71,7 @@ namespace gnomon::vk {
     X(CmdPipelineBarrier)             \
     X(CmdResetQueryPool)              \
     X(CmdSetBlendConstants)           \
+    X(CmdSetDepthBounds)              \
     X(CmdSetScissor)                  \
     X(CmdSetStencilReference)         \
     X(CmdSetViewport)                 \

@@ -16,23 +16,15 @@ namespace {
 
 // In the order of Command's alternatives.
 constexpr std::array<const char*, std::variant_size_v<Command>> function_names = {
-    "begin_render_pass",
-    "end",
-    "set_pipeline",
-    "set_bind_group",
-    "set_vertex_buffer",
-    "set_index_buffer",
-    "set_stencil_reference",
-    "set_blend_constant",
-    "set_viewport",
-    "set_scissor_rect",
-    "draw",
-    "draw_indexed",
-    "begin_occlusion_query",
-    "end_occlusion_query",
-    "push_debug_group",
-    "pop_debug_group",
-    "copy_buffer_to_buffer"};
+    "begin_render_pass",     "end",
+    "set_pipeline",          "set_bind_group",
+    "set_vertex_buffer",     "set_index_buffer",
+    "set_stencil_reference", "set_blend_constant",
+    "set_viewport",          "set_scissor_rect",
+    "set_depth_bounds",      "draw",
+    "draw_indexed",          "begin_occlusion_query",
+    "end_occlusion_query",   "push_debug_group",
+    "pop_debug_group",       "copy_buffer_to_buffer"};
 
 constexpr std::uint32_t no_query = std::numeric_limits<std::uint32_t>::max();
 
@@ -147,6 +139,17 @@ private:
                 "The scissor rectangle (x {}, y {}, width {}, height {}) is not within "
                 "the attachments ({} x {}).",
                 s.x, s.y, s.width, s.height, targets.width, targets.height);
+        }
+    }
+
+    void check(const cmd::SetDepthBounds& bounds) {
+        if (!inside_pass()) return;
+        if (!device_.caps().features.depth_bounds) {
+            violations_.add("The adapter has no depth bounds.");
+        }
+        if (!(bounds.min >= 0.0F && bounds.min <= bounds.max && bounds.max <= 1.0F)) {
+            violations_.add("The depth bounds ({} to {}) are not an interval within 0 and 1.",
+                            bounds.min, bounds.max);
         }
     }
 

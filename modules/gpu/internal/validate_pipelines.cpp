@@ -256,6 +256,10 @@ private:
         if (desc_.primitive.unclipped_depth && !device_.caps().features.unclipped_depth) {
             return invalid("{} uses unclipped_depth, which this adapter does not have.", name_);
         }
+        if (desc_.depth_stencil && desc_.depth_stencil->depth_bounds_test &&
+            !device_.caps().features.depth_bounds) {
+            return invalid("{} uses depth_bounds_test, which this adapter does not have.", name_);
+        }
         return validate_sample_count(device_, desc_.sample_count, name_);
     }
 
