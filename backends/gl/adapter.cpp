@@ -215,6 +215,8 @@ Result<Adapter> open_adapter(const Context& context, const BackendOptions& optio
     adapter.caps.adapter = get_string(gl, GL_RENDERER) + ", OpenGL " + version_text;
     adapter.caps.features = read_features(gl, extensions);
     adapter.caps.limits = read_limits(gl);
+    adapter.caps.limits.multisample_scissor_alignment =
+        gpu::multisample_scissor_alignment_of(adapter.caps.adapter);
     return adapter;
 }
 

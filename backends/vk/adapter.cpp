@@ -245,6 +245,8 @@ Result<Adapter> examine(const Instance& instance, VkPhysicalDevice device,
     adapter.caps.stencil_path = "native";
     adapter.caps.features = find_features(instance, adapter, disabled);
     adapter.caps.limits = find_limits(instance, adapter);
+    adapter.caps.limits.multisample_scissor_alignment =
+        gpu::multisample_scissor_alignment_of(adapter.caps.adapter);
     if (!adapter.caps.features.depth24unorm_stencil8 &&
         !adapter.caps.features.depth32float_stencil8) {
         return fail(ErrorCode::Unsupported,

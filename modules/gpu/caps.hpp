@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace gnomon::gpu {
 
@@ -31,7 +32,17 @@ struct Limits {
     std::uint64_t max_buffer_size = 0;
     std::uint64_t max_uniform_buffer_binding_size = 0;
     std::uint32_t min_uniform_buffer_offset_alignment = 256;
+    /// Where there are several samples, only scissors that begin at multiples of it, from the left
+    /// and from the top, cut exactly (not in WebGPU). 1 but for Mesa's software rasterisers, which
+    /// draw samples up to half a pixel outside of others.
+    std::uint32_t multisample_scissor_alignment = 1;
 };
+
+/// Limits::multisample_scissor_alignment of an adapter: llvmpipe and lavapipe (seen in Mesa 22.3.6)
+/// draw by tiles of 64 pixels, and at the border of one nothing gets across.
+[[nodiscard]] inline std::uint32_t multisample_scissor_alignment_of(std::string_view adapter) {
+    return adapter.find("llvmpipe") != std::string_view::npos ? 64 : 1;
+}
 
 struct Caps {
     std::string backend;  ///< "gl", "vk" or "null"

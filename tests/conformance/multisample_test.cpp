@@ -2,6 +2,7 @@
 //
 // Four samples: resolve, and fetching each sample of colour and stencil.
 #include <numeric>
+#include <random>
 
 #include "tests/conformance/painting.hpp"
 #include "tests/conformance/reading_shader.hpp"
@@ -100,6 +101,52 @@ TEST_P(Multisample, SamplesLieWhereWebGpuPutsThem) {
         EXPECT_FALSE(covered(x - margin, 2));
         EXPECT_TRUE(covered(2, y + margin));
         EXPECT_FALSE(covered(2, y - margin));
+    }
+}
+
+// Where it begins as the adapter says.
+TEST_P(Multisample, AScissorCutsWholePixels) {
+    if (!features().sampled_stencil) GTEST_SKIP() << "no sampled_stencil";
+    constexpr std::uint32_t width = 192;
+    constexpr std::uint32_t height = 160;
+    const std::uint32_t grid = device().caps().limits.multisample_scissor_alignment;
+    ASSERT_LE(grid, 64U);
+    const gpu::StencilFaceState count{.pass_op = gpu::StencilOp::IncrementWrap};
+    Step triangles{
+        .vertices = {},
+        .depth_stencil = {
+            .depth_compare = gpu::Compare::Always, .stencil_front = count, .stencil_back = count}};
+    std::minstd_rand random(1);
+    std::uniform_real_distribution<float> place(-1.2F, 1.2F);
+    for (int i = 0; i < 600; ++i) {
+        const float x = place(random);
+        triangles.vertices.push_back({x, place(random), 0.5F});
+    }
+    const PaintingDesc desc{.width = width, .height = height, .sample_count = 4};
+    Painting whole(device(), desc);
+    whole.paint({triangles});
+    for (const gpu::cmd::SetScissorRect scissor : {gpu::cmd::SetScissorRect{grid, 2 * grid, 39, 24},
+                                                   {2 * grid, grid, 3, 17},
+                                                   {0, grid, 100, 1},
+                                                   {grid, 0, 1, 61}}) {
+        triangles.scissor = scissor;
+        Painting cut(device(), desc);
+        cut.paint({triangles});
+        for (int sample = 0; sample < 4; ++sample) {
+            const auto all = fetch_stencil_samples(device(), whole.depth_stencil_texture(), width,
+                                                   height, sample);
+            const auto kept =
+                fetch_stencil_samples(device(), cut.depth_stencil_texture(), width, height, sample);
+            std::size_t wrong = 0;
+            for (std::uint32_t i = 0; i < all.size(); ++i) {
+                const std::uint32_t x = i % width;
+                const std::uint32_t y = i / width;
+                const bool inside = x >= scissor.x && x < scissor.x + scissor.width &&
+                                    y >= scissor.y && y < scissor.y + scissor.height;
+                wrong += kept[i] != (inside ? all[i] : 0) ? 1 : 0;
+            }
+            EXPECT_EQ(wrong, 0U) << scissor.x << "," << scissor.y << " sample " << sample;
+        }
     }
 }
 
