@@ -197,13 +197,16 @@ Result<shadows::FillOptions> parse_without(std::string_view text) {
             fill.clamp = false;
         } else if (part == "scissor") {
             fill.scissor = false;
+        } else if (part == "depth-bounds") {
+            fill.depth_bounds = false;
         } else if (part == "all") {
             fill = shadows::FillOptions::none();
         } else {
             return fail(
                 ErrorCode::InvalidInput,
                 fmt::format(
-                    "--without: \"{}\" is none of view-cull, receiver-cull, clamp, scissor, all.",
+                    "--without: \"{}\" is none of view-cull, receiver-cull, clamp, scissor, "
+                    "depth-bounds, all.",
                     part));
         }
     }

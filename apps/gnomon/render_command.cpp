@@ -159,6 +159,7 @@ Status Run::frame(std::uint32_t index, bool last) {
     record.submit_ms = renderer_->times().submit_ms + milliseconds_since(waiting);
     record.upload_bytes = after.uploaded_bytes - before.uploaded_bytes - read_back.uploaded_bytes;
     record.draw_calls = after.draw_calls - before.draw_calls - read_back.draw_calls;
+    record.depth_bounded_draws = renderer_->shadow_stats().depth_bounded_draws;
     record.shadows = list.stats;
     if (meters()) {
         auto fill = renderer_->measure_fill();

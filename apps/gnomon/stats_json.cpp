@@ -57,6 +57,7 @@ std::string to_json(const RunRecord& run) {
              {"exact_tests", s.detection.exact_tests},
              {"upload_bytes", frame.upload_bytes},
              {"draw_calls", frame.draw_calls},
+             {"depth_bounded_draws", frame.depth_bounded_draws},
              {"stencil_fragments", sum_of(frame.fill, &shadow_pass::LightFill::rasterised)},
              {"stencil_fragments_counted", sum_of(frame.fill, &shadow_pass::LightFill::counted)},
              {"silhouette", std::string(s.silhouette)},

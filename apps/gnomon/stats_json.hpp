@@ -21,6 +21,7 @@ struct FrameRecord {
     double submit_ms = 0.0;
     std::uint64_t upload_bytes = 0;
     std::uint64_t draw_calls = 0;
+    std::uint64_t depth_bounded_draws = 0;
     shadows::FrameStats shadows;
     std::optional<std::vector<shadow_pass::LightFill>> fill;  ///< none: not asked for, or no way
 };

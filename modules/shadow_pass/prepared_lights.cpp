@@ -46,6 +46,7 @@ void ShadowPass::State::make_keys(const shadows::DrawList& list, const shadows::
                     .mesh = draw.mesh->id(),
                     .wanted = scissor_of(draw.bounds),
                     .scissor = {},
+                    .depth = depth_of(draw),
                     .batch = draw.batch,
                     .technique = draw.technique,
                     .near_caps = draw.near_caps,
@@ -99,13 +100,14 @@ Status ShadowPass::State::make_calls(const shadows::DrawList& list, PreparedLigh
     light.marks.clear();
     light.calls.clear();
     light.parts.clear();
-    light.hidden_draws = 0;
+    light.hidden_draws = light.depth_bounded_draws = 0;
     for (std::uint32_t i = light.draws.first; i < light.draws.first + light.draws.count; ++i) {
         const shadows::VolumeDraw& draw = list.draws[i];
         if (draw.bounds.empty()) {
             ++light.hidden_draws;
             continue;
         }
+        if (!light.keys[i - light.draws.first].depth.everything()) ++light.depth_bounded_draws;
         if (light.finite && !unclipped(light) && draw.technique == Technique::DepthFail) {
             return fail(ErrorCode::Unsupported,
                         "Caster " + std::to_string(draw.caster) + " needs depth-fail for light " +
@@ -143,6 +145,7 @@ Status ShadowPass::State::add_quad_calls(const shadows::DrawList& list, std::uin
              .indices = {},
              .textures = *textures,
              .scissor = light.keys[i - light.draws.first].scissor,
+             .depth = light.keys[i - light.draws.first].depth,
              .first = run.first,
              .count = run.count,
              .instance = quads->uniform_offset(i),
@@ -181,6 +184,7 @@ Status ShadowPass::State::add_calls(const shadows::DrawList& list, std::uint32_t
              .indices = indices.buffer(where.chunk),
              .textures = {},
              .scissor = light.keys[i - light.draws.first].scissor,
+             .depth = light.keys[i - light.draws.first].depth,
              .first = where.first + (run.of_mesh ? run.first : run.first - at.begin),
              .count = run.count,
              .base_vertex = from->base_vertex + run.base_vertex,

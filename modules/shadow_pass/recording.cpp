@@ -22,6 +22,9 @@ public:
         encoder_.set_scissor_rect(wanted.x, wanted.y, wanted.width, wanted.height);
         scissor_ = wanted;
     }
+    void set_depth_bounds(const shadows::DepthBounds& wanted) {
+        if (change(depth_, wanted)) encoder_.set_depth_bounds(wanted.min, wanted.max);
+    }
     void set_pipeline(gpu::RenderPipelineId pipeline) {
         if (change(pipeline_, pipeline)) encoder_.set_pipeline(pipeline);
     }
@@ -46,6 +49,7 @@ private:
 
     gpu::RenderPassEncoder& encoder_;
     shadows::PixelRect scissor_;
+    shadows::DepthBounds depth_;
     gpu::RenderPipelineId pipeline_;
     gpu::BufferId vertices_;
     gpu::BufferId instances_;
@@ -79,6 +83,7 @@ void ShadowPass::State::record(gpu::RenderPassEncoder& encoder, std::size_t l,
         }
         previous = &call;
         recorder.set_scissor(call.scissor);
+        recorder.set_depth_bounds(call.depth);
         recorder.set_pipeline(pipelines->get(call.quads, batched, metered)[call.pipeline]);
         if (call.quads != shadows::QuadFacing::None) {
             encoder.set_bind_group(0, quads->uniforms(), std::span(&call.instance, 1));
@@ -91,6 +96,7 @@ void ShadowPass::State::record(gpu::RenderPassEncoder& encoder, std::size_t l,
         }
     }
     recorder.set_scissor(everything());
+    recorder.set_depth_bounds({});
     if (batched) {
         fold->fold(encoder);
         fold->finish(encoder);

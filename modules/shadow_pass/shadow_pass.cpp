@@ -214,6 +214,7 @@ Status ShadowPass::State::prepare(const shadows::DrawList& list, const shadows::
         }
         stats.draw_calls += light.draw_calls;
         stats.hidden_draws += light.hidden_draws;
+        stats.depth_bounded_draws += light.depth_bounded_draws;
     }
     if (const Status written = vertices.flush(); !written) return written;
     if (const Status written = indices.flush(); !written) return written;

@@ -113,9 +113,11 @@ enum class Fill : std::uint8_t {
 /// Of the last prepare().
 struct PassStats {
     std::uint64_t uploaded_bytes = 0;
-    std::uint64_t draw_calls = 0;        ///< that record() makes for all lights together
-    std::uint64_t index_bytes_held = 0;  ///< index memory in use
-    std::uint64_t hidden_draws = 0;      ///< volumes with empty bounds: not drawn
+    std::uint64_t draw_calls = 0;           ///< that record() makes for all lights together
+    std::uint64_t index_bytes_held = 0;     ///< index memory in use
+    std::uint64_t hidden_draws = 0;         ///< volumes with empty bounds: not drawn
+    std::uint64_t depth_bounded_draws = 0;  ///< volumes cut to depths (VolumeDraw::depth); none
+                                            ///< where the adapter has no depth bounds
 };
 
 class ShadowPass {
@@ -133,7 +135,9 @@ public:
     /// until the next call.
     ///
     /// `target` is the size of what record() will draw into: volumes are then cut to the pixels
-    /// that they can change (VolumeDraw::bounds). Without it none is.
+    /// that they can change (VolumeDraw::bounds). Without it none is. Where the adapter has depth
+    /// bounds, depth is reversed and its range whole (0 .. 1), volumes are cut to the depths that
+    /// they can change as well (VolumeDraw::depth).
     [[nodiscard]] Status prepare(const shadows::DrawList& list, const shadows::View& view,
                                  TargetSize target = {});
 
@@ -143,8 +147,9 @@ public:
     /// (LightDraws::batches). Those are folded in place, by draws that cover the viewport: one a
     /// batch and one more. Where volumes end (LightDraws::clear_background), one more draw sets the
     /// stencil to 0 where depth is what it was cleared to. Leaves pipeline, bind groups 0 and 1,
+    /// stencil to 0 where depth is what it was cleared to. Leaves pipeline, bind groups 0 and 1,
     /// vertex slots 0 and 1, index buffer, stencil reference and, where prepare() was told the
-    /// target's size, the scissor changed: it covers the target.
+    /// target's size, the scissor changed: it covers the target; depth bounds are 0 .. 1.
     void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
 
     /// Another after each prepare() that changed what record() records. While it stays, and the

@@ -81,6 +81,10 @@ gpu::DepthStencilState state_of(const ShadowPassDesc& desc, Technique technique,
 
 }  // namespace
 
+bool has_depth_bounds(const gpu::Device& device, const ShadowPassDesc& desc) {
+    return device.caps().features.depth_bounds && is_reversed(desc.depth_compare);
+}
+
 Result<Pipelines> create_volume_pipelines(gpu::Device& device, const ShadowPassDesc& desc,
                                           const VertexStage& stage, gpu::ShaderId fragment,
                                           const Counting& counting) {
@@ -111,6 +115,7 @@ Result<Pipelines> create_volume_pipelines(gpu::Device& device, const ShadowPassD
                         (counting.fill ? ", metered" : "");
                     pipeline.primitive.unclipped_depth = unclipped;
                     pipeline.depth_stencil = state_of(desc, technique, exchanged, role, counting);
+                    pipeline.depth_stencil->depth_bounds_test = has_depth_bounds(device, desc);
                     auto made = device.create_render_pipeline(pipeline);
                     if (!made) return forward_error(made);
                     result[pipeline_index(technique, exchanged, unclipped, role)] =

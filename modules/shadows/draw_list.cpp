@@ -384,6 +384,12 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
     }
     origin.bounds_known = false;
     origin.hidden = draw.bounds.empty();
+    DepthBounds depth;
+    if (options.fill.depth_bounds && !caster.pose.singular && !origin.hidden) {
+        depth = screen->depth_of(hull, reaches, plane);
+    }
+    differs = differs || depth != draw.depth;
+    draw.depth = depth;
     const bool draws_caps = draw.far_caps || draw.near_caps;
     if (draws_caps && !origin.hidden && draw.volume->made_with.caps.are_ranges_alone() &&
         !options.caps.are_ranges_alone()) {

@@ -151,6 +151,15 @@ Screen::Screen(const View& view) : eye_(glm::inverse(view.view_from_world)[3]) {
         nearest_ = std::min(nearest_, clip.w);
     }
     nearest_ *= 0.999;
+    const glm::dmat4& clip = view.clip_from_view;
+    const bool is_plain =
+        clip[0][2] == 0.0 && clip[1][2] == 0.0 && clip[0][3] == 0.0 && clip[1][3] == 0.0;
+    if (!is_plain) return;  // depth is not a matter of distance alone
+    forward_ = -glm::dvec3(glm::transpose(view.view_from_world)[2]);
+    z_ = {clip[3][2], -clip[2][2]};
+    w_ = {clip[3][3], -clip[2][3]};
+    across_ = 1.0 / std::min(std::abs(clip[0][0]), std::abs(clip[1][1]));
+    if (!std::isfinite(across_) || !is_finite(forward_)) across_ = 0.0;
 }
 
 bool Screen::begins_below(const glm::dvec3& normal, double distance) const {
@@ -223,25 +232,100 @@ ScreenBounds Screen::of(const Aabb& box) const {
     return of(points);
 }
 
-ScreenBounds Screen::of(const ShadowHull& hull, const Reach& reach, double plane) const {
-    if (!reach.any) return ScreenBounds::nothing();
-    const ScreenBounds receivers = of(reach.box);
-    if (hull.everything() || receivers.empty()) return receivers;
+namespace {
+
+// What the hull of these points is, the shadow is within; relative to the eye, at infinity w = 0.
+std::array<glm::dvec4, 16> points_of(const ShadowHull& hull, const Reach& reach, double plane,
+                                     const glm::dvec3& eye) {
     std::array<glm::dvec4, 16> points;
     const glm::dvec3 light(hull.light());
     const bool directional = hull.light().w == 0.0;
     for (std::size_t i = 0; i < 8; ++i) {
         const glm::dvec3& corner = hull.corners()[i];
-        points[i] = glm::dvec4(corner - eye_, 1.0);
+        points[i] = glm::dvec4(corner - eye, 1.0);
         const glm::dvec3 ray = directional ? hull.axis() : corner - light;
         if (reach.clamped) {
             const double t = (plane - glm::dot(reach.normal, corner)) / glm::dot(reach.normal, ray);
-            points[8 + i] = glm::dvec4(corner + t * ray - eye_, 1.0);
+            points[8 + i] = glm::dvec4(corner + t * ray - eye, 1.0);
         } else {
             points[8 + i] = glm::dvec4(ray, 0.0);
         }
     }
-    return intersection(of(points), receivers);
+    return points;
+}
+
+}  // namespace
+
+ScreenBounds Screen::of(const ShadowHull& hull, const Reach& reach, double plane) const {
+    if (!reach.any) return ScreenBounds::nothing();
+    const ScreenBounds receivers = of(reach.box);
+    if (hull.everything() || receivers.empty()) return receivers;
+    return intersection(of(points_of(hull, reach, plane, eye_)), receivers);
+}
+
+// Less than 0 or more than 1 before and behind the planes, as unclipped depth is clamped.
+double Screen::stored_depth(double ahead) const {
+    const double w = w_[0] + w_[1] * ahead;
+    if (!(w > 0.0)) return 1.0;
+    if (std::isinf(ahead)) return z_[1] / w_[1];
+    return (z_[0] + z_[1] * ahead) / w;
+}
+
+namespace {
+
+// Outward to one of few values: bounds that are alike are not set anew, and drivers that translate
+// shaders for each pair of them (SwiftShader's does) have few to translate.
+float coarsely(double depth, bool up) {
+    constexpr int steps = 8;  // an octave
+    if (!(depth > 0x1p-18)) return up ? 0x1p-18F : 0.0F;
+    int exponent = 0;
+    const double mantissa = 2.0 * std::frexp(depth, &exponent);  // 1 .. 2
+    const double step = (mantissa - 1.0) * steps;
+    const double kept = 1.0 + (up ? std::ceil(step) : std::floor(step)) / steps;
+    return static_cast<float>(std::min(1.0, std::ldexp(kept, exponent - 1)));
+}
+
+}  // namespace
+
+DepthBounds Screen::depth_of(const ShadowHull& hull, const Reach& reach, double plane) const {
+    if (!(across_ > 0.0) || hull.everything() || !reach.any) return {};
+    Extent shadow;
+    for (const glm::dvec4& p : points_of(hull, reach, plane, eye_)) {
+        const double ahead = glm::dot(forward_, glm::dvec3(p));
+        if (!std::isfinite(ahead)) return {};
+        if (p.w != 0.0) {
+            shadow.low = std::min(shadow.low, ahead);
+            shadow.high = std::max(shadow.high, ahead);
+            continue;
+        }
+        const double none = 1e-9 * glm::length(glm::dvec3(p));
+        if (ahead > -none) shadow.high = infinity;
+        if (ahead < none) shadow.low = -infinity;
+    }
+    if (is_finite(reach.box.low) && is_finite(reach.box.high)) {
+        const glm::dvec3 middle = 0.5 * (reach.box.low + reach.box.high) - eye_;
+        const glm::dvec3 half = 0.5 * (reach.box.high - reach.box.low);
+        const double ahead = glm::dot(forward_, middle);
+        const double room = glm::dot(glm::abs(forward_), half);
+        shadow.low = std::max(shadow.low, ahead - room);
+        shadow.high = std::min(shadow.high, ahead + room);
+    }
+    if (!(shadow.low <= shadow.high)) return {};
+    // A vertex that snaps to a rasteriser's grid takes its depth along, so that a pixel holds the
+    // depth of a place beside it. On a pixel outside of the band along a shadow's edge it is still
+    // one of the shadow's or none of them, however a surface lies: what moves it is less than what
+    // it is away. Within the band a pixel's size, of pictures with 256 of them, keeps nearly all.
+    const auto beside = [&](double ahead) {
+        return across_ / 128.0 * std::max(0.0, w_[0] + w_[1] * ahead);
+    };
+    const double first = shadow.low - beside(shadow.low);
+    const double last = std::isinf(shadow.high) ? infinity : shadow.high + beside(shadow.high);
+    // Depth is interpolated in single precision, by planes through triangles of whatever depths.
+    const auto rounded = [](double depth) { return 2e-6 + 1e-5 * depth; };
+    const double farthest = std::clamp(stored_depth(last), 0.0, 1.0);
+    const double nearest = std::clamp(stored_depth(first), 0.0, 1.0);
+    return {coarsely(farthest - rounded(farthest), false),
+            coarsely(nearest + rounded(nearest), true)};
 }
 
 Shown shown_of(const FillTerms& terms, const ShadowHull& hull, const Reach& reach) {

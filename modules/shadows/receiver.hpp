@@ -37,8 +37,14 @@ struct FillOptions {
     bool clamp = true;
     /// VolumeDraw::bounds is what the volume can change of the picture, else all of it.
     bool scissor = true;
+    /// VolumeDraw::depth is where the volume can change the count of what is stored, else all of
+    /// it. Used where the adapter can (gpu::Features::depth_bounds); exact outside of the band
+    /// along shadows' edges.
+    bool depth_bounds = true;
 
-    [[nodiscard]] static constexpr FillOptions none() { return {false, false, false, false}; }
+    [[nodiscard]] static constexpr FillOptions none() {
+        return {false, false, false, false, false};
+    }
 };
 
 }  // namespace gnomon::shadows

@@ -37,6 +37,15 @@ struct ScreenBounds {
     return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
 }
 
+/// Depths as the depth buffer stores them: 1 at the near plane, 0 far away.
+struct DepthBounds {
+    float min = 0.0F;
+    float max = 1.0F;
+
+    [[nodiscard]] bool everything() const { return min <= 0.0F && max >= 1.0F; }
+    bool operator==(const DepthBounds&) const = default;
+};
+
 /// Pixels of a target, row 0 on top.
 struct PixelRect {
     std::uint32_t x = 0;

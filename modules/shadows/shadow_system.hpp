@@ -99,6 +99,9 @@ struct VolumeDraw {
     /// Nothing outside of it changes; where it is empty the volume need not be drawn. All of the
     /// picture without FillOptions::scissor.
     ScreenBounds bounds;
+    /// Nothing changes where the depth that is stored lies outside, on a surface. All of it without
+    /// FillOptions::depth_bounds.
+    DepthBounds depth;
 };
 
 /// The volumes of one light: draws[first .. first + count).

@@ -89,6 +89,46 @@ std::uint64_t recorded_draws(gpu::Device& device, const ShadowPass& pass) {
     return device.counters().draw_calls - before;
 }
 
+TEST(ShadowPass, bounds_depth_where_the_adapter_can_and_depth_is_reversed) {
+    for (const bool able : {true, false}) {
+        for (const gpu::Compare compare : {gpu::Compare::Greater, gpu::Compare::Less}) {
+            gpu::NullBackendOptions options;
+            options.features.depth_bounds = able;
+            gpu::Device device(gpu::create_null_backend(options));
+            ShadowPass pass = *ShadowPass::create(device, {.depth_compare = compare});
+            const shadows::View view = perspective_view();
+            shadows::DrawList list = World().frame(view);
+            for (std::size_t i = 1; i < list.draws.size(); ++i) list.draws[i].depth = {0.25F, 0.5F};
+            ASSERT_TRUE(pass.prepare(list, view));
+            auto target = device.create_texture({.width = 8,
+                                                 .height = 8,
+                                                 .format = gpu::Format::Depth32FloatStencil8,
+                                                 .usage = gpu::TextureUsage::RenderAttachment});
+            auto encoder = device.create_command_encoder("test");
+            {
+                auto recorder = encoder.begin_render_pass(
+                    {.depth_stencil = gpu::DepthStencilAttachment{.texture = *target}});
+                pass.record(recorder, 0);
+            }
+            const auto commands = encoder.finish();
+            ASSERT_TRUE(commands) << commands.error().message;
+            std::vector<gpu::cmd::SetDepthBounds> set;
+            for (const gpu::Command& command : commands->commands) {
+                const auto* bounds = std::get_if<gpu::cmd::SetDepthBounds>(&command);
+                if (bounds != nullptr) set.push_back(*bounds);
+            }
+            const bool bounded = able && compare == gpu::Compare::Greater;
+            EXPECT_EQ(pass.stats().depth_bounded_draws, bounded ? 4U : 0U);
+            ASSERT_EQ(set.size(), bounded ? 2U : 0U) << "once for all four, and back";
+            if (!bounded) continue;
+            EXPECT_EQ(set[0].min, 0.25F);
+            EXPECT_EQ(set[0].max, 0.5F);
+            EXPECT_EQ(set[1].min, 0.0F);
+            EXPECT_EQ(set[1].max, 1.0F);
+        }
+    }
+}
+
 TEST(ShadowPass, uploads_matrices_alone_when_the_camera_moves) {
     gpu::Device device(gpu::create_null_backend());
     ShadowPass pass = *ShadowPass::create(device, {});

@@ -86,6 +86,8 @@ TEST_F(Fill, VolumesEndBehindTheGround) {
     ShadowSystem plain = make(FillOptions::none());
     EXPECT_EQ(frame(plain, all_).stats.pairs_clamped, 0U);
     EXPECT_EQ(frame(plain, all_).draws[0].bounds, ScreenBounds{});
+    EXPECT_EQ(frame(plain, all_).draws[0].depth, DepthBounds{});
+    EXPECT_NE(frame(system, all_).draws[0].depth, DepthBounds{});
 }
 
 TEST_F(Fill, WhatIsOutOfViewIsNotDetectedUntilItIsSeen) {
@@ -230,6 +232,7 @@ TEST_F(Fill, WhatIsSeenIsThatOfASystemThatSawNothingBefore) {
                 const VolumeDraw& other = *then.at(pair);
                 ASSERT_EQ(draw->world_from_far, other.world_from_far);
                 ASSERT_EQ(draw->bounds, other.bounds);
+                ASSERT_EQ(draw->depth, other.depth);
                 ASSERT_EQ(draw->technique, other.technique);
                 ASSERT_EQ(draw->far_caps, other.far_caps);
                 ASSERT_EQ(draw->volume->silhouette_edges, other.volume->silhouette_edges);

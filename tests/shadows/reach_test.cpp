@@ -84,12 +84,18 @@ std::optional<glm::dvec2> place_of(const View& view, const glm::dvec3& p) {
     return place;
 }
 
+float depth_of(const View& view, const glm::dvec3& p) {
+    const glm::dvec4 clip = view.clip_from_world() * glm::dvec4(p, 1.0);
+    return std::clamp(static_cast<float>(clip.z / clip.w), 0.0F, 1.0F);
+}
+
 TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
     GNOMON_RANDOM(random);
     std::uint64_t in_shadow = 0;
     std::uint64_t clamped = 0;
     std::uint64_t seen = 0;
     std::uint64_t cut = 0;
+    std::uint64_t bounded = 0;
     for (int scene = 0; scene < 4'000; ++scene) {
         const OrientedBounds caster = random_box(random, 1.5, 4.0);
         const Light light = random_light(random, 8.0);
@@ -108,6 +114,8 @@ TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
         const Reach reach = terms.reach(hull);
         const double plane = plane_distance(reach, screen.eye());
         const ScreenBounds bounds = screen.of(hull, reach, plane);
+        const DepthBounds depth = screen.depth_of(hull, reach, plane);
+        bounded += depth.everything() ? 0 : 1;
         const bool hidden = shown_of(terms, hull, reach).hidden != Hidden::No;
         clamped += reach.clamped ? 1 : 0;
         cut += bounds.everything() || bounds.empty() ? 0 : 1;
@@ -131,6 +139,9 @@ TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
             ASSERT_LE(place->x, bounds.max.x) << scene;
             ASSERT_GE(place->y, bounds.min.y) << scene;
             ASSERT_LE(place->y, bounds.max.y) << scene;
+            const float stored = depth_of(view, p);
+            ASSERT_GE(stored, depth.min) << scene;
+            ASSERT_LE(stored, depth.max) << scene;
         }
     }
     // All of it was put to the test.
@@ -138,6 +149,7 @@ TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
     EXPECT_GT(seen, 1'000U);
     EXPECT_GT(clamped, 2'000U);
     EXPECT_GT(cut, 500U);
+    EXPECT_GT(bounded, 500U);
 }
 
 TEST(Reach, AVolumeThatEndsOnThePlaneIsWithinTheScissorWhole) {
@@ -227,6 +239,41 @@ TEST(Reach, AGroundEndsTheShadowsOfWhatStandsOnIt) {
     const Reach up = reach_of({pillar, {.position_world = {0, -9, 0, 1}}}, &tree, {});
     EXPECT_TRUE(up.any) << "the pillar itself";
     EXPECT_LT(up.distance, 4.1);
+}
+
+TEST(Reach, DepthsOfAShadowOnTheGroundAreThoseThatItLiesAt) {
+    // 4 m high, seen from 10 m; the light comes from over the eye's shoulder, and the shadow ends
+    // 4 m behind, on the ground.
+    const OrientedBounds pillar{glm::dmat4(1.0), {-0.5, 0.0, -0.5}, {0.5, 4.0, 0.5}};
+    ReceiverTree tree;
+    tree.build(
+        std::array{Aabb{{-100, -0.1, -100}, {100, 0, 100}}, Aabb{{-0.5, 0, -0.5}, {0.5, 4, 0.5}}});
+    const ShadowHull hull(pillar, {.position_world = {0, 1, 1, 0}});
+    const Reach reach = reach_of(hull, &tree, {});
+    const auto bounds_in = [&](const glm::dmat4& clip_from_view, ProjectionKind kind) {
+        const View view{.view_from_world = look_at({0, 2, 10}, {0, 2, 0}, {0, 1, 0}),
+                        .clip_from_view = clip_from_view,
+                        .projection = kind};
+        const Screen screen(view);
+        return screen.depth_of(hull, reach, plane_distance(reach, screen.eye()));
+    };
+    // Rounded outward to the next eighth of an octave.
+    const DepthBounds infinite =
+        bounds_in(infinite_perspective(0.8, 1.5, 0.1), ProjectionKind::InfinitePerspective);
+    EXPECT_LE(infinite.max, 0.1 / 9.5 * 1.13);
+    EXPECT_GE(infinite.max, 0.1 / 9.5);
+    EXPECT_LE(infinite.min, 0.1 / 14.6);
+    EXPECT_GE(infinite.min, 0.1 / 14.6 * 0.86);
+    const DepthBounds flat = bounds_in(orthographic(9, 6, 0.0, 20.0), ProjectionKind::Orthographic);
+    EXPECT_NEAR(flat.max, 10.5 / 20.0, 0.08);
+    EXPECT_NEAR(flat.min, 5.4 / 20.0, 0.05);
+    const DepthBounds finite =
+        bounds_in(finite_perspective(0.8, 1.5, 0.1, 12.0), ProjectionKind::FinitePerspective);
+    EXPECT_EQ(finite.min, 0.0F) << "it ends before the shadow does";
+    // An oblique near plane: depth is no matter of distance.
+    glm::dmat4 oblique = infinite_perspective(0.8, 1.5, 0.1);
+    oblique[0][2] = 0.1;
+    EXPECT_TRUE(bounds_in(oblique, ProjectionKind::InfinitePerspective).everything());
 }
 
 TEST(ScreenBounds, ArePixelsOfATarget) {

@@ -109,11 +109,25 @@ struct ShadowPass::State {
     Result<gpu::BufferId> extruded_vertices_of(std::size_t index, const shadows::VolumeDraw& draw);
     Result<VolumeRun*> indices_of(const shadows::VolumeDraw& draw);
 
+    // At least what `bounds` cover: begun where the adapter cuts exactly.
     [[nodiscard]] shadows::PixelRect scissor_of(const shadows::ScreenBounds& bounds) const {
-        return shadows::pixels_of(bounds, target.width, target.height);
+        shadows::PixelRect rect = shadows::pixels_of(bounds, target.width, target.height);
+        if (desc.sample_count == 1) return rect;
+        const std::uint32_t grid = device->caps().limits.multisample_scissor_alignment;
+        rect.width += rect.x % grid;
+        rect.height += rect.y % grid;
+        rect.x -= rect.x % grid;
+        rect.y -= rect.y % grid;
+        return rect;
     }
     [[nodiscard]] shadows::PixelRect everything() const {
         return {0, 0, target.width, target.height};
+    }
+    // Not by depth-fail: SwiftShader counts what is outside of the bounds as depth that fails.
+    [[nodiscard]] shadows::DepthBounds depth_of(const shadows::VolumeDraw& draw) const {
+        const bool bounded =
+            draw.technique == Technique::DepthPass && internal::has_depth_bounds(*device, desc);
+        return bounded ? draw.depth : shadows::DepthBounds{};
     }
 
     // recording.cpp

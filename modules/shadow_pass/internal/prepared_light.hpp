@@ -23,6 +23,7 @@ struct Call {
     gpu::BufferId indices;      ///< none for quads
     gpu::BindGroupId textures;  ///< for quads
     shadows::PixelRect scissor;
+    shadows::DepthBounds depth;
     std::uint32_t first = 0;  ///< vertex or index
     std::uint32_t count = 0;
     std::int32_t base_vertex = 0;
@@ -33,8 +34,8 @@ struct Call {
 };
 
 /// Brings the calls of each batch into an order with few changes of state: by vertex stage,
-/// pipeline, whether there is a scissor (`everything`: there is none), and buffers. Counts are
-/// sums, so that no order of volumes within a batch changes a byte.
+/// pipeline, whether there is a scissor (`everything`: there is none), depth bounds and buffers.
+/// Counts are sums, so that no order of volumes within a batch changes a byte.
 void sort_calls(std::vector<Call>& calls, const shadows::PixelRect& everything);
 
 /// All that a draw's calls depend on.
@@ -43,6 +44,7 @@ struct DrawKey {
     std::uint64_t mesh = 0;
     shadows::PixelRect wanted;   ///< the scissor that its bounds ask for
     shadows::PixelRect scissor;  ///< and what was chosen
+    shadows::DepthBounds depth;  ///< where the adapter has such
     std::uint32_t batch = 0;
     shadows::Technique technique = shadows::Technique::DepthFail;
     bool near_caps = false;
@@ -74,6 +76,7 @@ struct PreparedLight {
     std::vector<VolumeParts> parts;
     std::uint64_t draw_calls = 0;  ///< that record() makes
     std::uint64_t hidden_draws = 0;
+    std::uint64_t depth_bounded_draws = 0;
     bool known = false;  ///< false: to be made anew
 };
 

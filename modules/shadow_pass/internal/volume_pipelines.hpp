@@ -29,6 +29,10 @@ struct VertexStage {
 /// By pipeline_index(); empty where the pass has no use for one.
 using Pipelines = std::array<gpu::RenderPipeline, 8 * role_count>;
 
+/// Whether the pipelines test depth bounds: where the adapter can, and depth is as
+/// VolumeDraw::depth has it.
+[[nodiscard]] bool has_depth_bounds(const gpu::Device& device, const ShadowPassDesc& desc);
+
 /// `exchanged`: front and back are. `unclipped`: as gpu::PrimitiveState has it.
 [[nodiscard]] inline std::size_t pipeline_index(shadows::Technique technique, bool exchanged,
                                                 bool unclipped, Role role) {

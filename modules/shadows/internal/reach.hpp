@@ -71,14 +71,24 @@ public:
     [[nodiscard]] ScreenBounds of(const ShadowHull& hull, const Reach& reach, double plane) const;
     /// Of a finite box.
     [[nodiscard]] ScreenBounds of(const Aabb& box) const;
+    /// The stored depths of what a shadow can change, wherever on the picture: the same volume,
+    /// the same receivers. Cost: some hundred flops.
+    [[nodiscard]] DepthBounds depth_of(const ShadowHull& hull, const Reach& reach,
+                                       double plane) const;
 
 private:
     [[nodiscard]] ScreenBounds of(std::span<const glm::dvec4> points) const;
+    [[nodiscard]] double stored_depth(double ahead) const;
 
     glm::dmat4 clip_from_world_;  // relative to the eye
     glm::dvec3 eye_{0.0};
     std::array<glm::dvec3, 4> near_{};
     double nearest_ = 0.0;  // w of what is on the near plane
+    // Depth by metres ahead of the eye: clip coordinates z and w as z[0] + z[1] * metres.
+    glm::dvec3 forward_{0.0};
+    glm::dvec2 z_{0.0};
+    glm::dvec2 w_{0.0};
+    double across_ = 0.0;  // half the picture in metres, the larger way, where w is 1; 0: unusual
 };
 
 /// By what volumes are left out or cut, the same for all pairs of a frame.
