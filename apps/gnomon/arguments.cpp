@@ -193,6 +193,8 @@ Result<shadows::FillOptions> parse_without(std::string_view text) {
             fill.cull_by_view = false;
         } else if (part == "receiver-cull") {
             fill.cull_by_receivers = false;
+        } else if (part == "umbra-cull") {
+            fill.cull_by_umbra = false;
         } else if (part == "clamp") {
             fill.clamp = false;
         } else if (part == "scissor") {
@@ -205,8 +207,8 @@ Result<shadows::FillOptions> parse_without(std::string_view text) {
             return fail(
                 ErrorCode::InvalidInput,
                 fmt::format(
-                    "--without: \"{}\" is none of view-cull, receiver-cull, clamp, scissor, "
-                    "depth-bounds, all.",
+                    "--without: \"{}\" is none of view-cull, receiver-cull, umbra-cull, clamp, "
+                    "scissor, depth-bounds, all.",
                     part));
         }
     }

@@ -43,6 +43,7 @@ std::string to_json(const RunRecord& run) {
              {"pairs", s.pairs},
              {"pairs_culled", s.pairs_culled},
              {"pairs_hidden", s.pairs_hidden},
+             {"pairs_in_umbra", s.pairs_in_umbra},
              {"pairs_clamped", s.pairs_clamped},
              {"pairs_redetected", s.pairs_redetected},
              {"pairs_reused", s.pairs_reused},

@@ -378,7 +378,11 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
         internal::depth_pass_has_far_caps(draw.extrusion.offset.w == 0.0F, reaches, *screen);
     if (!origin.bounds_known) {
         ScreenBounds bounds;
-        if (!caster.pose.singular) bounds = shown_of(fill_terms(), hull, reaches).bounds;
+        if (light.umbras.holds(origin.caster)) {
+            bounds = ScreenBounds::nothing();
+        } else if (!caster.pose.singular) {
+            bounds = shown_of(fill_terms(), hull, reaches).bounds;
+        }
         differs = differs || bounds != draw.bounds;
         draw.bounds = bounds;
     }

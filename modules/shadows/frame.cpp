@@ -37,12 +37,6 @@ bool same_view(const View& a, const View& b) {
            std::memcmp(&a.clip_from_view, &b.clip_from_view, sizeof a.clip_from_view) == 0;
 }
 
-bool out_of_range(const CasterState& caster, const Light& light) {
-    if (!light.range_m || light.position_world.w == 0.0) return false;
-    const double distance = glm::length(glm::dvec3(light.position_world) - caster.center);
-    return distance - caster.radius * (1.0 + 1e-9) > *light.range_m;
-}
-
 std::uint64_t next_list_revision() {
     static std::atomic<std::uint64_t> next{1};
     return next.fetch_add(1);
@@ -137,6 +131,7 @@ void ShadowSystem::State::finish(const View& now) {
     casters.sort();
     lights.sort();
     collect_work(all);
+    find_umbras(all);
     if (!all && view_changed) take_up_deferred();
     clips.clear();
     for (std::uint32_t l = 0; l < lights.end(); ++l) {
@@ -275,8 +270,9 @@ void ShadowSystem::State::update_one(PairWork& item, Scratch& scratch, FrameStat
     const Volume* volume = volume_of(light, item.caster);
     item.was = pair.reason;
     item.had_volume = volume != nullptr;
+    item.in_umbra = light.umbras.holds(item.caster);
     if (!caster.pose.finite || !internal::is_finite(light.light.position_world) ||
-        out_of_range(caster, light.light)) {
+        internal::is_out_of_range(caster, light.light)) {
         pair = {};
         pair.reason = Reason::OutOfRange;
         return;
@@ -523,9 +519,12 @@ void ShadowSystem::State::count_pairs() {
     stats.lights = lights.size();
     stats.pairs = stats.casters * stats.lights;
     stats.pairs_culled = 0;
+    stats.pairs_in_umbra = 0;
+    for (const std::uint32_t l : lights.by_key()) stats.pairs_in_umbra += lights[l].umbras.count();
     auto& reasons = stats.reasons;
     auto& unchanged = reasons[place_of(Reason::Unchanged)];
-    for (const Reason culled : {Reason::OutOfRange, Reason::OutOfView, Reason::ReachesNothing}) {
+    for (const Reason culled :
+         {Reason::OutOfRange, Reason::OutOfView, Reason::ReachesNothing, Reason::InUmbra}) {
         auto& pairs = reasons[place_of(culled)];
         pairs = 0;
         for (const std::uint32_t l : lights.by_key()) pairs += lights[l].culled[place_of(culled)];

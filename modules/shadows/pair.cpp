@@ -209,6 +209,16 @@ void bound_quickly(PairState& pair, const CasterState& caster, const LightState&
     }
 }
 
+Reason reason_of(Hidden hidden) {
+    switch (hidden) {
+        case Hidden::No: return Reason::Unchanged;
+        case Hidden::OutOfView: return Reason::OutOfView;
+        case Hidden::ReachesNothing: return Reason::ReachesNothing;
+        case Hidden::InUmbra: return Reason::InUmbra;
+    }
+    return Reason::Unchanged;
+}
+
 // Whether a cap of the pair's volume may be drawn in this frame; the technique, where that says so.
 bool may_draw_caps(const CasterState& caster, const FrameTerms& terms, PairWork& work) {
     if (!terms.caps.when_drawn || terms.clip == nullptr || !caster.in_depth_buffer ||
@@ -240,6 +250,12 @@ std::uint64_t next_volume_revision() {
 OrientedBounds bounds_of(const CasterState& caster) {
     return {caster.pose.world_from_local, glm::dvec3(caster.mesh->bounds_min()),
             glm::dvec3(caster.mesh->bounds_max())};
+}
+
+bool is_out_of_range(const CasterState& caster, const Light& light) {
+    if (!light.range_m || light.position_world.w == 0.0) return false;
+    const double distance = glm::length(glm::dvec3(light.position_world) - caster.center);
+    return distance - caster.radius * (1.0 + 1e-9) > *light.range_m;
 }
 
 LightLocal current_light(const PairState& pair, const LightState& light) {
@@ -281,6 +297,11 @@ ChosenStrategy choose_strategy(const SilhouetteStrategy* wanted, const ShadowMes
 void update_pair(PairState& pair, const CasterState& caster, const LightState& light,
                  const FrameTerms& terms, const Volume* volume, const QuadCasting* quads,
                  Scratch& scratch, PairWork& work, FrameStats& stats) {
+    if (work.in_umbra && !pair.is(PairFlag::Known)) {
+        pair = {};
+        pair.reason = Reason::InUmbra;
+        return;
+    }
     std::optional<ShadowHull> hull;
     work.far_vertices = terms.far_vertices;
     if (!caster.pose.singular) {
@@ -341,11 +362,14 @@ void update_pair(PairState& pair, const CasterState& caster, const LightState& l
     }
     if (is_new) reason = Reason::New;
     if (light_is_new || asked_anew) {
-        if (hull) work.shown = shown_of(terms.fill, *hull, work.reach);
+        if (work.in_umbra) {
+            work.shown = Shown{Hidden::InUmbra, ScreenBounds::nothing()};
+        } else if (hull) {
+            work.shown = shown_of(terms.fill, *hull, work.reach);
+        }
         if (work.shown && work.shown->hidden != Hidden::No) {
             pair = {};
-            pair.reason = work.shown->hidden == Hidden::OutOfView ? Reason::OutOfView
-                                                                  : Reason::ReachesNothing;
+            pair.reason = reason_of(work.shown->hidden);
             return;
         }
         const PairHistory history{

@@ -41,9 +41,14 @@ struct FillOptions {
     /// it. Used where the adapter can (gpu::Features::depth_bounds); exact outside of the band
     /// along shadows' edges.
     bool depth_bounds = true;
+    /// Volumes of casters that lie wholly in the shadow of another one, as far as planes behind a
+    /// convex part of that one can tell, are not drawn, and where they moved not made: what theirs
+    /// would cover, the other one's does. Zero stays zero and all else is not zero; counts are
+    /// less.
+    bool cull_by_umbra = true;
 
     [[nodiscard]] static constexpr FillOptions none() {
-        return {false, false, false, false, false};
+        return {false, false, false, false, false, false};
     }
 };
 

@@ -26,6 +26,8 @@ class ShadowMesh;
 namespace internal {
 class FaceTree;
 const FaceTree& face_tree(const ShadowMesh& mesh);
+struct ConvexPart;
+const std::vector<ConvexPart>& convex_parts(const ShadowMesh& mesh);
 struct MeshTopology;
 struct DetectionTables;
 const MeshTopology& topology_of(const ShadowMesh& mesh);
@@ -177,6 +179,7 @@ public:
 
 private:
     friend const internal::FaceTree& internal::face_tree(const ShadowMesh& mesh);
+    friend const std::vector<internal::ConvexPart>& internal::convex_parts(const ShadowMesh& mesh);
     friend const internal::MeshTopology& internal::topology_of(const ShadowMesh& mesh);
     friend const internal::DetectionTables& internal::tables_of(const ShadowMesh& mesh);
     ShadowMesh() = default;
@@ -210,6 +213,9 @@ private:
     // What shadow queries search in: made when first asked for, then as immutable as the rest.
     mutable std::once_flag face_tree_once_;
     mutable std::shared_ptr<const internal::FaceTree> face_tree_;
+    // What other casters may be hidden behind from a light: likewise.
+    mutable std::once_flag convex_parts_once_;
+    mutable std::shared_ptr<const std::vector<internal::ConvexPart>> convex_parts_;
 };
 
 }  // namespace gnomon::shadows

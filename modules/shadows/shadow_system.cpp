@@ -55,6 +55,7 @@ std::string_view to_string(Reason reason) {
         case Reason::OutOfRange: return "out of range";
         case Reason::OutOfView: return "out of view";
         case Reason::ReachesNothing: return "reaches nothing";
+        case Reason::InUmbra: return "in an umbra";
     }
     return "";
 }
@@ -139,6 +140,7 @@ void ShadowSystem::State::drop_caster(std::uint32_t slot) {
         }
         pair = {};
         light.layers[slot] = 0;
+        light.umbras.forget(slot);
     }
     casters.remove(slot);
     came_or_went = true;
@@ -243,7 +245,8 @@ SystemMemory ShadowSystem::memory() const {
                          light.pieces.capacity() * sizeof(internal::Piece) +
                          (light.grid != nullptr ? light.grid->memory_bytes() : 0);
         memory.pairs += light.pairs.capacity() * sizeof(PairState) +
-                        light.layers.capacity() * sizeof(std::uint32_t);
+                        light.layers.capacity() * sizeof(std::uint32_t) +
+                        light.umbras.memory_bytes();
         for (const PairState& pair : light.pairs) {
             if (pair.extra == nullptr) continue;
             const internal::PairExtra& extra = *pair.extra;

@@ -68,8 +68,9 @@ enum class Reason : std::uint8_t {
     OutOfRange,         ///< the caster is beyond the light's range: no volume
     OutOfView,          ///< nothing of the shadow can be seen: no volume until it can
     ReachesNothing,     ///< the shadow reaches no receiver: no volume until it does
+    InUmbra,            ///< the caster lies in another's shadow: no volume until it does not
 };
-inline constexpr std::size_t reason_count = 12;
+inline constexpr std::size_t reason_count = 13;
 [[nodiscard]] std::string_view to_string(Reason reason);
 
 /// One volume to draw.
@@ -124,8 +125,11 @@ struct FrameStats {
     std::uint64_t casters = 0;
     std::uint64_t lights = 0;
     std::uint64_t pairs = 0;
-    std::uint64_t pairs_culled = 0;   ///< without a volume: OutOfRange, OutOfView, ReachesNothing
-    std::uint64_t pairs_hidden = 0;   ///< with a volume that changes nothing in this view
+    /// Without a volume: OutOfRange, OutOfView, ReachesNothing, InUmbra.
+    std::uint64_t pairs_culled = 0;
+    std::uint64_t pairs_hidden = 0;  ///< with a volume that changes nothing in this view
+    /// Of the culled and hidden ones: whose caster lies in another's umbra.
+    std::uint64_t pairs_in_umbra = 0;
     std::uint64_t pairs_clamped = 0;  ///< of all pairs drawn: far vertices on a plane
     std::uint64_t pairs_redetected = 0;
     std::uint64_t pairs_reused = 0;
@@ -198,7 +202,8 @@ struct SystemOptions {
 struct SystemMemory {
     std::uint64_t casters = 0;  ///< with the look-up of their keys
     std::uint64_t lights = 0;   ///< likewise, and how each was split
-    /// 60 bytes for each pair of a light and a caster, in range or not.
+    /// 60 bytes for each pair of a light and a caster, in range or not, 61 where one may lie in
+    /// another's umbra.
     std::uint64_t pairs = 0;
     /// What pairs hold for a while: detectors that keep state, until a pair has been at rest for 64
     /// to 128 frames; whole volumes and parts of lights that are split; distances for finite views.

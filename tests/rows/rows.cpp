@@ -132,6 +132,24 @@ Setting mirrored_and_sheared() {
     return s.finish();
 }
 
+// A wall with things behind it as seen from the sun, one of them flush with its edge, one beyond
+// it, and a box with one in it, as seen from the lamp.
+Setting casters_behind_others() {
+    Stage s;
+    s.ground();
+    s.place(box(1.0F), moved({0.8, 1.5, 0}) * turned(8, {0, 1, 0}) * scaled({0.15, 3, 4}));
+    s.place(knot(), moved({-0.8, 1.0, -0.6}) * scaled(glm::dvec3(0.5)));
+    s.place(box(0.6F), moved({-0.2, 0.9, 0.9}) * turned(30, {1, 1, 0}));
+    s.place(box(0.5F), moved({-0.6, 0.25, 1.75}) * turned(8, {0, 1, 0}));
+    s.place(box(0.8F), moved({-2.4, 1.8, 1.2}));
+    s.place(box(1.2F), moved({2.4, 0.6, 1.4}));
+    s.place(knot(), moved({2.4, 0.6, 1.4}) * scaled(glm::dvec3(0.3)));
+    s.sun({-1.0, -0.7, 0.1});
+    s.lamp({3.5, 4.0, 3.0});
+    s.look({-3.5, 2.6, 5.0}, {0, 0.8, 0}, 55.0);
+    return s.finish();
+}
+
 Setting open_meshes() {
     Stage s;
     s.ground();
@@ -256,6 +274,7 @@ const std::vector<Row>& rows() {
         {"mirrored_and_sheared", mirrored_and_sheared},
         {"open_meshes", open_meshes},
         {"inconsistent_winding", inconsistent_winding},
+        {"casters_behind_others", casters_behind_others},
         {"orthographic", orthographic_view},
         {"orthographic_near_plane_in_a_volume", orthographic_near_plane_in_a_volume},
         {"off_axis", off_axis_view},

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // What FillOptions leave out, no pixel can tell. Culls and scissors: the same bytes on every
-// surface, whatever else is left out. Clamping and depth bounds: no pixel is wrong outside the band
-// either way; those within it that differ are counted.
+// surface, whatever else is left out; of umbrae: zero stays zero, and all else is not. Clamping and
+// depth bounds: no pixel is wrong outside the band either way; those within it that differ are
+// counted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -136,6 +137,21 @@ TEST_P(Savings, of_depth_bounds_are_right_outside_the_band) {
     if (!device().caps().features.depth_bounds) GTEST_SKIP() << "the adapter has no depth bounds";
     const Counts counts = judge_without({.depth_bounds = false});
     EXPECT_GT(counts.depth_bounded, 0U);
+}
+
+TEST_P(Savings, of_umbrae_leave_no_shadow_out) {
+    std::uint64_t in_umbra = 0;
+    for (std::size_t i = 0; i < rows().size(); ++i) {
+        if (!falls_to(number(), i, 2) && rows()[i].name != "casters_behind_others") continue;
+        SCOPED_TRACE(rows()[i].name);
+        const Setting setting = rows()[i].make();
+        const Picture with_all = take(rows()[i], setting, {});
+        const Picture without = take(rows()[i], setting, {.cull_by_umbra = false});
+        EXPECT_EQ(compare(with_all, without).shadow, 0U);
+        EXPECT_EQ(without.list.stats.pairs_in_umbra, 0U);
+        in_umbra += with_all.list.stats.pairs_in_umbra;
+    }
+    EXPECT_GT(in_umbra, 3U);
 }
 
 TEST_P(Savings, of_clamping_are_right_outside_the_band) {

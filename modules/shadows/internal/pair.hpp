@@ -27,6 +27,7 @@
 #include "near_clip.hpp"
 #include "reach.hpp"
 #include "slots.hpp"
+#include "umbra_culls.hpp"
 #include "volume_pool.hpp"
 
 namespace gnomon::shadows::internal {
@@ -145,6 +146,7 @@ struct LightState : SlotHead {
     std::vector<PairState> pairs;
     std::vector<std::uint32_t> layers;  ///< that a pair's volume can lay over a point
     std::array<std::uint64_t, reason_count> culled{};  ///< pairs without a volume, by Reason
+    LightUmbras umbras;                                ///< casters that others may lie behind
     LayerMemory memory;
     std::unique_ptr<LayerGrid> grid;  ///< of all pairs' layers, while there are many; or null
     // In the draw list.
@@ -174,8 +176,11 @@ struct Scratch {
 /// A pair that has no volume, for now.
 [[nodiscard]] constexpr bool is_culled(Reason reason) {
     return reason == Reason::OutOfRange || reason == Reason::OutOfView ||
-           reason == Reason::ReachesNothing;
+           reason == Reason::ReachesNothing || reason == Reason::InUmbra;
 }
+
+/// Beyond what the light lights.
+[[nodiscard]] bool is_out_of_range(const CasterState& caster, const Light& light);
 
 /// What is the same for all pairs of a frame.
 struct FrameTerms {
@@ -197,6 +202,7 @@ struct PairWork {
     FarVertices far_vertices = FarVertices::AtInfinity;
     Reason was = Reason::Unchanged;  ///< the pair's reason before
     bool had_volume = false;
+    bool in_umbra = false;  ///< its caster lies in another's
     Reach reach = {};
     std::optional<Shown> shown = std::nullopt;          ///< where it has been asked for
     std::optional<Technique> technique = std::nullopt;  ///< where it has been asked for

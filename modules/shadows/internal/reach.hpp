@@ -102,7 +102,7 @@ struct FillTerms {
     }
 };
 
-enum class Hidden : std::uint8_t { No, OutOfView, ReachesNothing };
+enum class Hidden : std::uint8_t { No, OutOfView, ReachesNothing, InUmbra };
 /// Whether a volume may be left out, and where it is cut to.
 struct Shown {
     Hidden hidden = Hidden::No;

@@ -121,6 +121,7 @@ struct ShadowSystem::State {
         return {options.fill, known ? &receiver_tree : nullptr, screen ? &*screen : nullptr};
     }
     void plant_receivers();
+    void find_umbras(bool all);  // umbra_culls.cpp
     void take_up_deferred();
     void update_one(internal::PairWork& item, internal::Scratch& scratch, FrameStats& stats);
     [[nodiscard]] bool place_results();
