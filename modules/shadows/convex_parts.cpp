@@ -2,10 +2,8 @@
 #include "internal/convex_parts.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <mutex>
-#include <unordered_map>
 #include <utility>
 
 namespace gnomon::shadows::internal {
@@ -21,6 +19,12 @@ constexpr double least_depth = 1e-6;
 // More components than this are not gone through for the largest ones.
 constexpr std::size_t most_tried = 16;
 
+// Of meshes of more faces, which have small ones, nothing is grown; and from no more faces.
+constexpr std::size_t most_faces_to_grow = 2048;
+constexpr std::size_t most_seeds = 12;
+// Of a mesh's size, squared: parts of less area hide little.
+constexpr double least_area = 0.01;
+
 bool may_be_convex(const Component& component) {
     return component.closed && component.boundary_edges == 0 && component.inconsistent_edges == 0 &&
            component.non_manifold_edges == 0 && component.faces >= 4 &&
@@ -31,56 +35,197 @@ double size_of(const Component& component) {
     return glm::length(glm::dvec3(component.bounds_max) - glm::dvec3(component.bounds_min));
 }
 
-// The surface of a component, whatever its shape; false where a face has no area.
+// The surface of some faces, whatever its shape; false where one has no area.
 bool gather(const ShadowMesh& mesh, const std::vector<std::uint32_t>& faces, ConvexPart& part) {
-    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-    std::unordered_map<std::uint32_t, std::uint32_t> places;  // of vertices
-    std::unordered_map<std::uint32_t, std::uint32_t> edges;   // of the mesh, in the part
+    struct Side {
+        std::uint32_t edge;  // of the mesh
+        std::uint32_t face;  // of the part
+        std::array<std::uint32_t, 2> ends;
+    };
+    std::vector<Side> sides;
+    std::vector<std::uint32_t> vertices;  // of the mesh
     for (const std::uint32_t f : faces) {
         const auto& corners = mesh.faces()[f];
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
             continue;  // it has no edge with any other
         }
         if (mesh.is_degenerate(f)) return false;
-        std::array<std::uint32_t, 3> face{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto [found, added] =
-                places.try_emplace(corners[i], static_cast<std::uint32_t>(part.vertices.size()));
-            if (added) part.vertices.push_back(mesh.positions()[corners[i]]);
-            face[i] = found->second;
-        }
         const auto number = static_cast<std::uint32_t>(part.faces.size());
-        part.faces.push_back(face);
+        part.faces.push_back(corners);
+        vertices.insert(vertices.end(), corners.begin(), corners.end());
         for (std::size_t i = 0; i < 3; ++i) {
-            const auto [found, added] = edges.try_emplace(
-                mesh.face_edges()[f][i], static_cast<std::uint32_t>(part.edges.size()));
-            if (added) {
-                part.edges.push_back({{face[i], face[(i + 1) % 3]}, {number, none}});
-            } else {
-                part.edges[found->second].faces[1] = number;
-            }
+            sides.push_back({mesh.face_edges()[f][i], number, {corners[i], corners[(i + 1) % 3]}});
         }
     }
-    return std::ranges::none_of(part.edges, [](const auto& edge) { return edge.faces[1] == none; });
+    std::ranges::sort(vertices);
+    const auto repeated = std::ranges::unique(vertices);
+    vertices.erase(repeated.begin(), repeated.end());
+    const auto place = [&](std::uint32_t& vertex) {
+        vertex = static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, vertex) -
+                                            vertices.begin());
+    };
+    for (const std::uint32_t v : vertices) part.vertices.push_back(mesh.positions()[v]);
+    for (auto& face : part.faces) std::ranges::for_each(face, place);
+    std::ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.edge, side.face); });
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        Side& side = sides[i];
+        std::ranges::for_each(side.ends, place);
+        // Across an edge of other faces as well, or of two that look apart, nothing goes on.
+        const bool is_shared = i + 1 < sides.size() && sides[i + 1].edge == side.edge &&
+                               side.edge < mesh.regular_edges();
+        part.edges.push_back({side.ends, {side.face, ConvexPart::no_face}});
+        if (is_shared) part.edges.back().faces[1] = sides[++i].face;
+    }
+    return !part.faces.empty();
 }
 
-bool is_convex(ConvexPart& part, double size, bool inside_out) {
+void measure(ConvexPart& part) {
     for (const glm::vec3& v : part.vertices) part.center += glm::dvec3(v);
     part.center /= static_cast<double>(part.vertices.size());
+    for (const auto& face : part.faces) {
+        const glm::dvec3 a(part.vertices[face[0]]);
+        part.area += 0.5 * glm::length(glm::cross(glm::dvec3(part.vertices[face[1]]) - a,
+                                                  glm::dvec3(part.vertices[face[2]]) - a));
+    }
+}
+
+bool is_convex(const ConvexPart& part, double size) {
+    const auto ends = [](const auto& edge) { return edge.faces[1] == ConvexPart::no_face; };
+    if (std::ranges::any_of(part.edges, ends)) return false;
     for (const auto& face : part.faces) {
         const glm::dvec3 a(part.vertices[face[0]]);
         const glm::dvec3 normal = glm::cross(glm::dvec3(part.vertices[face[1]]) - a,
                                              glm::dvec3(part.vertices[face[2]]) - a);
         const double length = glm::length(normal);
         if (!(length > 0.0)) return false;
-        part.area += 0.5 * length;
-        const glm::dvec3 outward = (inside_out ? -1.0 : 1.0) / length * normal;
+        const glm::dvec3 outward = (part.inside_out ? -1.0 : 1.0) / length * normal;
         if (!(glm::dot(outward, part.center - a) < -least_depth * size)) return false;
         for (const glm::vec3& v : part.vertices) {
             if (glm::dot(outward, glm::dvec3(v) - a) > convex_slack * size) return false;
         }
     }
     return true;
+}
+
+// Some faces, while they grow.
+class Growth {
+public:
+    Growth(const ShadowMesh& mesh, double size) : mesh_(mesh), slack_(convex_slack * size) {}
+
+    [[nodiscard]] const std::vector<std::uint32_t>& faces() const { return faces_; }
+    void begin(std::uint32_t face, bool inside_out) {
+        inward_ = inside_out;
+        faces_.clear();
+        normals_.clear();
+        add(face);
+    }
+    void add(std::uint32_t face) {
+        faces_.push_back(face);
+        normals_.push_back(normal_of(face));
+    }
+    [[nodiscard]] bool has(std::uint32_t face) const {
+        return std::ranges::find(faces_, face) != faces_.end();
+    }
+    [[nodiscard]] bool may_add(std::uint32_t face) const {
+        const glm::dvec3 normal = normal_of(face);
+        for (std::size_t i = 0; i < faces_.size(); ++i) {
+            bool is_flat = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double one = glm::dot(normal, corner(faces_[i], k) - corner(face, 0));
+                const double other = glm::dot(normals_[i], corner(face, k) - corner(faces_[i], 0));
+                if (one > slack_ || other > slack_) return false;
+                is_flat = is_flat && one > -slack_ && other > -slack_;
+            }
+            // In one plane: neither may have a corner beyond a side of the other's that is a
+            // border.
+            if (is_flat && (!is_beside(faces_[i], face, face, normals_[i]) ||
+                            !is_beside(face, faces_[i], face, normal))) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    [[nodiscard]] glm::dvec3 corner(std::uint32_t face, std::size_t i) const {
+        return glm::dvec3(mesh_.positions()[mesh_.faces()[face][i]]);
+    }
+    [[nodiscard]] glm::dvec3 normal_of(std::uint32_t face) const {
+        const glm::dvec3 a = corner(face, 0);
+        const glm::dvec3 normal =
+            glm::normalize(glm::cross(corner(face, 1) - a, corner(face, 2) - a));
+        return inward_ ? -normal : normal;
+    }
+    // Where `more` is to be one of them.
+    [[nodiscard]] bool is_beside(std::uint32_t face, std::uint32_t other, std::uint32_t more,
+                                 const glm::dvec3& normal) const {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t edge = mesh_.face_edges()[face][i];
+            if (edge < mesh_.regular_edges()) {
+                const auto uses = mesh_.uses(mesh_.edges()[edge]);
+                const std::uint32_t next = uses[0].face == face ? uses[1].face : uses[0].face;
+                if (next == more || has(next)) continue;
+            }
+            const glm::dvec3 a = corner(face, i);
+            const glm::dvec3 along = corner(face, (i + 1) % 3) - a;
+            const glm::dvec3 inner = glm::normalize(glm::cross(inward_ ? -normal : normal, along));
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (glm::dot(inner, corner(other, k) - a) < -slack_) return false;
+            }
+        }
+        return true;
+    }
+
+    const ShadowMesh& mesh_;
+    double slack_;
+    bool inward_ = false;
+    std::vector<std::uint32_t> faces_;
+    std::vector<glm::dvec3> normals_;
+};
+
+// From the largest faces that are in no part yet.
+void grow_parts(const ShadowMesh& mesh, const std::vector<std::uint8_t>& is_convex_component,
+                std::vector<ConvexPart>& parts) {
+    if (mesh.faces().size() > most_faces_to_grow) return;
+    std::vector<std::pair<double, std::uint32_t>> seeds;
+    for (std::uint32_t f = 0; f < mesh.faces().size(); ++f) {
+        if (is_convex_component[mesh.face_components()[f]] != 0 || mesh.is_degenerate(f)) continue;
+        const auto& [a, b, c] = mesh.faces()[f];
+        const glm::dvec3 at(mesh.positions()[a]);
+        const double area = glm::length(
+            glm::cross(glm::dvec3(mesh.positions()[b]) - at, glm::dvec3(mesh.positions()[c]) - at));
+        if (area > 0.0) seeds.emplace_back(-area, f);
+    }
+    std::ranges::sort(seeds);
+    const double size = glm::length(glm::dvec3(mesh.bounds_max()) - glm::dvec3(mesh.bounds_min()));
+    Growth growth(mesh, size);
+    std::vector<std::uint8_t> is_taken(mesh.faces().size(), 0);
+    std::size_t tried = 0;
+    for (const auto& [area, seed] : seeds) {
+        if (is_taken[seed] != 0) continue;
+        if (++tried > most_seeds) break;
+        const Component& component = mesh.components()[mesh.face_components()[seed]];
+        growth.begin(seed, component.inside_out);
+        for (std::size_t i = 0; i < growth.faces().size(); ++i) {
+            for (const std::uint32_t edge : mesh.face_edges()[growth.faces()[i]]) {
+                if (edge >= mesh.regular_edges()) continue;
+                for (const FaceUse& use : mesh.uses(mesh.edges()[edge])) {
+                    if (growth.faces().size() < most_convex_faces && is_taken[use.face] == 0 &&
+                        !mesh.is_degenerate(use.face) && !growth.has(use.face) &&
+                        growth.may_add(use.face)) {
+                        growth.add(use.face);
+                    }
+                }
+            }
+        }
+        for (const std::uint32_t f : growth.faces()) is_taken[f] = 1;
+        ConvexPart part;
+        if (!gather(mesh, growth.faces(), part)) continue;
+        part.inside_out = component.inside_out;
+        part.two_sided = !component.closed;
+        measure(part);
+        if (part.area >= least_area * size * size) parts.push_back(std::move(part));
+    }
 }
 
 std::vector<ConvexPart> find_parts(const ShadowMesh& mesh) {
@@ -95,7 +240,7 @@ std::vector<ConvexPart> find_parts(const ShadowMesh& mesh) {
         return size_of(components[a]) > size_of(components[b]);
     });
     if (tried.size() > most_tried) tried.resize(most_tried);
-    if (tried.empty()) return parts;
+    std::vector<std::uint8_t> is_convex_component(components.size(), 0);
 
     std::vector<std::vector<std::uint32_t>> faces(tried.size());
     for (std::uint32_t f = 0; f < mesh.faces().size(); ++f) {
@@ -108,9 +253,14 @@ std::vector<ConvexPart> find_parts(const ShadowMesh& mesh) {
         const Component& component = components[tried[i]];
         ConvexPart part;
         if (!gather(mesh, faces[i], part)) continue;
-        if (!is_convex(part, size_of(component), component.inside_out)) continue;
+        part.whole = true;
+        part.inside_out = component.inside_out;
+        measure(part);
+        if (!is_convex(part, size_of(component))) continue;
+        is_convex_component[tried[i]] = 1;
         parts.push_back(std::move(part));
     }
+    grow_parts(mesh, is_convex_component, parts);
     std::stable_sort(parts.begin(), parts.end(),
                      [](const ConvexPart& a, const ConvexPart& b) { return a.area > b.area; });
     if (parts.size() > most_convex_parts) parts.resize(most_convex_parts);

@@ -94,6 +94,23 @@ void Umbra::make(const ConvexPart& part, const Pose& pose, const glm::dvec4& lig
     size = std::sqrt(size);
     if (!(size > 0.0)) return;
 
+    const double outwards = part.inside_out != pose.mirrored ? -1.0 : 1.0;
+    if (!cut_out(part, size, outwards)) {
+        planes_.clear();
+        if (!part.two_sided || !cut_out(part, size, -outwards)) {
+            planes_.clear();
+            return;
+        }
+    }
+    margin_ = umbra_margin * size + vertex_error_of(pose, farthest) +
+              1e-13 * (glm::length(origin_) + (directional_ ? 0.0 : glm::length(light_)));
+    turn_ = 1e-7 + 4.0 * light_error_of(pose, light_world) / nearest_;
+    const double enough = most_sizes * size;
+    follow_ = follow <= enough ? follow : enough;
+    if (!(turn_ <= most_turn) || !std::isfinite(margin_)) planes_.clear();
+}
+
+bool Umbra::cut_out(const ConvexPart& part, double size, double outwards) {
     // Which faces look to the light; first their planes.
     looks_.assign(part.faces.size(), 0);
     double clearance = 0.0;
@@ -106,8 +123,8 @@ void Umbra::make(const ConvexPart& part, const Pose& pose, const glm::dvec4& lig
         const glm::dvec3& c = vertices_[part.faces[f][2]];
         glm::dvec3 normal = glm::cross(b - a, c - a);
         const double length = glm::length(normal);
-        if (!(length > 0.0)) return;
-        normal /= glm::dot(normal, a) < 0.0 ? -length : length;  // outwards
+        if (!(length > 0.0)) return false;
+        normal *= outwards / length;
         const glm::dvec3 to_light = directional_ ? light_ : light_ - a;
         const double height = glm::dot(normal, to_light);
         if (!(height > least_look * glm::length(to_light))) continue;
@@ -122,16 +139,16 @@ void Umbra::make(const ConvexPart& part, const Pose& pose, const glm::dvec4& lig
     }
     const bool in_or_about =
         !directional_ && (clearance < least_clearance * size || !(last > glm::dot(axis, light_)));
-    if (looking == 0 || in_or_about) {
-        planes_.clear();
-        return;
-    }
+    if (looking == 0 || in_or_about) return false;
     if (planes_.size() > most_near_planes) planes_.assign(1, glm::dvec4(axis, -last));
     const std::size_t near_planes = planes_.size();
 
     for (const ConvexPart::Edge& edge : part.edges) {
-        const bool first = looks_[edge.faces[0]] != 0;
-        if (first == (looks_[edge.faces[1]] != 0)) continue;
+        const auto looks = [&](std::uint32_t face) {
+            return face != ConvexPart::no_face && looks_[face] != 0;
+        };
+        const bool first = looks(edge.faces[0]);
+        if (first == looks(edge.faces[1])) continue;
         const auto& face = part.faces[edge.faces[first ? 0 : 1]];
         const glm::dvec3& a = vertices_[edge.ends[0]];
         const glm::dvec3& b = vertices_[edge.ends[1]];
@@ -143,10 +160,7 @@ void Umbra::make(const ConvexPart& part, const Pose& pose, const glm::dvec4& lig
         const double length = glm::length(normal);
         const double inner = glm::dot(normal, vertices_[apex] - a);
         const bool is_sound = length > 0.0 && std::abs(inner) > 1e-12 * size * length;
-        if (!is_sound || planes_.size() - near_planes >= most_planes) {
-            planes_.clear();
-            return;
-        }
+        if (!is_sound || planes_.size() - near_planes >= most_planes) return false;
         normal /= inner < 0.0 ? -length : length;
         add(glm::dvec4(normal, -glm::dot(normal, a)), size);
     }
@@ -154,13 +168,8 @@ void Umbra::make(const ConvexPart& part, const Pose& pose, const glm::dvec4& lig
     std::rotate(planes_.begin(), planes_.begin() + static_cast<std::ptrdiff_t>(near_planes),
                 planes_.end());
 
-    margin_ = umbra_margin * size + vertex_error_of(pose, farthest) +
-              1e-13 * (glm::length(origin_) + (directional_ ? 0.0 : glm::length(light_)));
     nearest_ = directional_ ? 1.0 : std::max(clearance, glm::length(light_) - size);
-    turn_ = 1e-7 + 4.0 * light_error_of(pose, light_world) / nearest_;
-    const double enough = most_sizes * size;
-    follow_ = follow <= enough ? follow : enough;
-    if (!(turn_ <= most_turn) || !std::isfinite(margin_)) planes_.clear();
+    return true;
 }
 
 bool Umbra::holds(const UmbraBox& box) const {

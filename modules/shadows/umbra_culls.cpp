@@ -127,42 +127,66 @@ void LightUmbras::choose(const UmbraTerms& terms) {
 }
 
 void LightUmbras::surround(const UmbraTerms& terms) {
-    surrounds_.clear();
+    if (surrounds_ == nullptr) surrounds_ = std::make_unique<Surrounds>();
+    Surrounds& all = *surrounds_;
     const glm::dvec3 light(terms.light.position_world);
-    for (const Candidate& candidate : candidates_) {
-        const CasterState& caster = terms.casters[candidate.caster];
-        Surround& around = surrounds_.emplace_back();
-        const double radius2 = caster.radius * caster.radius;
-        if (terms.light.position_world.w == 0.0) {
-            around = {caster.center, -glm::normalize(light), -caster.radius, radius2, 0.0};
-            continue;
+    const bool directional = terms.light.position_world.w == 0.0;
+    all.first.fill(std::numeric_limits<float>::infinity());  // nothing is in those that are not
+    if (candidates_.empty()) return;
+    all.base = directional ? terms.casters[candidates_[0].caster].center : light;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        const CasterState& caster = terms.casters[candidates_[i].caster];
+        const double radius2 = 1.001 * caster.radius * caster.radius;
+        const glm::dvec3 at = caster.center - all.base;
+        const double distance2 = glm::dot(at, at);
+        const bool in_or_about = !directional && !(distance2 > radius2);
+        const glm::dvec3 axis = directional ? -glm::normalize(light) : at / std::sqrt(distance2);
+        for (int k = 0; k < 3; ++k) {
+            const auto row = static_cast<std::size_t>(k);
+            all.tip[row][i] = directional ? static_cast<float>(at[k]) : 0.0F;
+            all.axis[row][i] = in_or_about ? 0.0F : static_cast<float>(axis[k]);
         }
-        const glm::dvec3 way = caster.center - light;
-        const double distance2 = glm::dot(way, way);
-        around = {light, way / std::sqrt(distance2), 0.0, 0.0, radius2 / (distance2 - radius2)};
-        if (!(distance2 > radius2)) {
-            around.first = -std::numeric_limits<double>::infinity();
-            around.wide2 = std::numeric_limits<double>::infinity();
-            around.widens2 = 0.0;
-        }
+        all.first[i] =
+            directional ? static_cast<float>(-std::sqrt(radius2)) : (in_or_about ? -1.0F : 0.0F);
+        all.wide2[i] = directional   ? static_cast<float>(radius2)
+                       : in_or_about ? std::numeric_limits<float>::infinity()
+                                     : 0.0F;
+        all.widens2[i] =
+            directional || in_or_about ? 0.0F : static_cast<float>(radius2 / (distance2 - radius2));
     }
+}
+
+// Which surrounds a point is in; false where in none.
+bool LightUmbras::mark(const glm::dvec3& point, Marks& marks) const {
+    const Surrounds& all = *surrounds_;
+    const glm::vec3 p(point - all.base);
+    std::int32_t any = 0;
+    for (std::size_t i = 0; i < most; ++i) {
+        const float x = p.x - all.tip[0][i];
+        const float y = p.y - all.tip[1][i];
+        const float z = p.z - all.tip[2][i];
+        const float along = x * all.axis[0][i] + y * all.axis[1][i] + z * all.axis[2][i];
+        const float along2 = along * along;
+        const float aside2 = x * x + y * y + z * z - along2;
+        const std::int32_t is_behind = along > all.first[i] ? 1 : 0;
+        const std::int32_t is_near = aside2 < all.wide2[i] + all.widens2[i] * along2 ? 1 : 0;
+        marks[i] = is_behind & is_near;
+        any |= marks[i];
+    }
+    return any != 0;
 }
 
 std::uint8_t LightUmbras::find(const UmbraTerms& terms, std::uint32_t slot, bool anew_alone) {
     const CasterState& caster = terms.casters[slot];
-    if (!caster.pose.finite || caster.pose.singular || is_out_of_range(caster, terms.light)) {
+    Marks marks;
+    if (!mark(caster.center, marks) || !caster.pose.finite || caster.pose.singular ||
+        is_out_of_range(caster, terms.light)) {
         return 0;
     }
     bool is_boxed = false;
     UmbraBox box;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-        const Surround& around = surrounds_[i];
-        const glm::dvec3 way = caster.center - around.tip;
-        const double along = glm::dot(way, around.axis);
-        const double aside2 = glm::dot(way, way) - along * along;
-        if (!(along > around.first) || !(aside2 < around.wide2 + around.widens2 * along * along)) {
-            continue;
-        }
+        if (marks[i] == 0) continue;
         Candidate& candidate = candidates_[i];
         if ((anew_alone && !candidate.anew) || candidate.caster == slot) continue;
         if (!candidate.made) {
@@ -220,7 +244,7 @@ void LightUmbras::update(const UmbraTerms& terms) {
 
 std::size_t LightUmbras::memory_bytes() const {
     std::size_t bytes = (candidates_.capacity() + before_.capacity()) * sizeof(Candidate) +
-                        surrounds_.capacity() * sizeof(Surround) + moved_to_.capacity() +
+                        (surrounds_ != nullptr ? sizeof(Surrounds) : 0) + moved_to_.capacity() +
                         behind_.capacity() + turned_.capacity() * sizeof(std::uint32_t);
     for (const Candidate& candidate : candidates_) bytes += candidate.umbra.memory_bytes();
     return bytes;

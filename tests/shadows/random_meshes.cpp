@@ -155,6 +155,20 @@ Triangles tetrahedron(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
     return {{a, b, c, d}, {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0}};
 }
 
+Triangles l_shape() {
+    Triangles mesh;
+    const std::array<glm::vec2, 6> outline{glm::vec2(0, 0), {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+    for (const float z : {1.0F, 0.0F}) {
+        for (const glm::vec2& p : outline) mesh.positions.emplace_back(p, z);
+    }
+    quad(mesh, 0, 1, 2, 3);
+    quad(mesh, 0, 3, 4, 5);
+    quad(mesh, 9, 8, 7, 6);
+    quad(mesh, 11, 10, 9, 6);
+    for (std::uint32_t i = 0; i < 6; ++i) quad(mesh, 6 + i, 6 + (i + 1) % 6, (i + 1) % 6, i);
+    return mesh;
+}
+
 Triangles sheet(int n) {
     Triangles mesh;
     for (int z = 0; z <= n; ++z) {

@@ -71,6 +71,8 @@ struct Triangles {
 [[nodiscard]] Triangles sphere(int rings, int segments, float radius = 1.0F);
 [[nodiscard]] Triangles torus(int around, int along, float ring = 1.0F, float tube = 0.4F);
 [[nodiscard]] Triangles tetrahedron(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d);
+/// An L of two unit cubes' thickness, closed: (0,0,0) to (2,2,1), without its far corner.
+[[nodiscard]] Triangles l_shape();
 /// A flat open sheet of n x n quads in y = 0.
 [[nodiscard]] Triangles sheet(int n);
 /// Quads that share one edge.

@@ -131,8 +131,16 @@ TEST_F(UmbraCulls, EndWithTheLightAndTheCaster) {
     EXPECT_EQ(drawn(frame()), (Keys{wall, thing})) << "its volume begins behind it";
     casters_[wall].near_caps = NearCaps::Facing;
     EXPECT_EQ(drawn(frame()), Keys{wall});
-    casters_[wall].mesh = test::build(test::sheet(1));
+    casters_[wall].mesh = test::build(test::torus(8, 8));
     EXPECT_EQ(drawn(frame()), (Keys{wall, thing}));
+    // A sheet hides what is behind either side.
+    casters_[wall].mesh = test::build(test::sheet(1));
+    casters_[wall].world_from_local =
+        standing({0, 0, -3}) * glm::dmat4(glm::dmat3(0, 6, 0, -1, 0, 0, 0, 0, 6));
+    EXPECT_EQ(drawn(frame()), Keys{wall});
+    casters_[wall].world_from_local =
+        standing({0, 0, -3}) * glm::dmat4(glm::dmat3(0, 6, 0, 1, 0, 0, 0, 0, 6));
+    EXPECT_EQ(drawn(frame()), Keys{wall});
 }
 
 TEST_F(UmbraCulls, CostNothingWhereOnlyTheCameraMoves) {
@@ -243,8 +251,13 @@ struct World {
 private:
     Random& random_;
     std::vector<std::shared_ptr<const ShadowMesh>> meshes_{
-        test::build(test::box()), test::build(test::sphere(6, 7)),
-        test::build(test::inside_out(test::box())), test::build(test::sheet(2)),
+        test::build(test::box()),
+        test::build(test::sphere(6, 7)),
+        test::build(test::inside_out(test::box())),
+        test::build(test::sheet(2)),
+        test::build(test::l_shape()),
+        test::build(test::book(4)),
+        test::build(test::torus(6, 6)),
         test::build(test::merged(test::box({-1, -1, -1}, {0, 1, 1}),
                                  test::box({0.2F, -1, -1}, {1, 1, 1})))};
 };

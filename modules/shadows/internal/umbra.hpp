@@ -69,6 +69,7 @@ public:
     }
 
 private:
+    [[nodiscard]] bool cut_out(const ConvexPart& part, double size, double outwards);
     void add(const glm::dvec4& plane, double size);
 
     glm::dvec3 origin_{0.0};

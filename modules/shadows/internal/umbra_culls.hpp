@@ -4,8 +4,10 @@
 // that look largest from the light are candidates; all others are asked about those.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -38,7 +40,7 @@ struct UmbraTerms {
 class LightUmbras {
 public:
     /// Candidates of a light. More were not worth their asking.
-    static constexpr std::size_t most = 16;
+    static constexpr std::size_t most = 32;
 
     /// Writes down whose state turned(). Cost: where nothing changed, nothing; for each caster that
     /// did, some flops a candidate; where the light or a candidate did, the same for all casters.
@@ -67,26 +69,30 @@ private:
         Umbra umbra = {};
     };
     // Of each candidate: what of the world is in its shadow at the most, a cone or a cylinder round
-    // a sphere, so that few umbras are asked, and made.
-    struct Surround {
-        glm::dvec3 tip{0.0};
-        glm::dvec3 axis{0.0};
-        double first = 0.0;  // along the axis
-        double wide2 = 0.0;  // squared distance from it: wide2 + widens2 * along * along
-        double widens2 = 0.0;
+    // a sphere, so that few umbras are asked, and made. Several at a time; relative to `base`.
+    struct Surrounds {
+        using Row = std::array<float, most>;
+        glm::dvec3 base{0.0};
+        std::array<Row, 3> tip;
+        std::array<Row, 3> axis;
+        Row first;  // along the axis
+        Row wide2;  // squared distance from it: wide2 + widens2 * along * along
+        Row widens2;
     };
+    using Marks = std::array<std::int32_t, most>;
 
     [[nodiscard]] bool keeps_candidates(const UmbraTerms& terms);
     void choose(const UmbraTerms& terms);
     void surround(const UmbraTerms& terms);
+    [[nodiscard]] bool mark(const glm::dvec3& point, Marks& marks) const;
     [[nodiscard]] std::uint8_t find(const UmbraTerms& terms, std::uint32_t caster, bool anew_alone);
     void set(std::uint32_t caster, std::uint8_t now);
 
     std::vector<Candidate> candidates_, before_;
-    std::vector<Surround> surrounds_;     // of candidates_
-    std::vector<std::uint8_t> moved_to_;  // by 1 + the number of a candidate before: its, or 0
-    bool lost_ = false;                   // a candidate went
-    std::vector<std::uint8_t> behind_;    // by caster: 1 + a candidate's number, or 0
+    std::unique_ptr<Surrounds> surrounds_;  // of candidates_
+    std::vector<std::uint8_t> moved_to_;    // by 1 + the number of a candidate before: its, or 0
+    bool lost_ = false;                     // a candidate went
+    std::vector<std::uint8_t> behind_;      // by caster: 1 + a candidate's number, or 0
     std::uint64_t count_ = 0;
     std::vector<std::uint32_t> turned_;
 };
