@@ -15,13 +15,17 @@ namespace {
 constexpr double convex_slack = 1e-5;
 // Of a part's size: what its middle must lie behind each plane.
 constexpr double least_depth = 1e-6;
+// Of normals' cosine, less than 1: of faces in one plane.
+constexpr double flat_slack = 1e-8;
 
 // More components than this are not gone through for the largest ones.
 constexpr std::size_t most_tried = 16;
 
-// Of meshes of more faces, which have small ones, nothing is grown; and from no more faces.
-constexpr std::size_t most_faces_to_grow = 2048;
+// Of meshes of more faces, which have small ones, nothing is grown; from no more faces, and to no
+// more: what is large has large faces.
+constexpr std::size_t most_faces_to_grow = 512;
 constexpr std::size_t most_seeds = 12;
+constexpr std::size_t most_grown_faces = 48;
 // Of a mesh's size, squared: parts of less area hide little.
 constexpr double least_area = 0.01;
 
@@ -79,6 +83,26 @@ bool gather(const ShadowMesh& mesh, const std::vector<std::uint32_t>& faces, Con
     return !part.faces.empty();
 }
 
+// Whether a few of the faces have all the others behind them: most components fail sooner than they
+// are gathered.
+bool may_be_convex(const ShadowMesh& mesh, const std::vector<std::uint32_t>& faces, double slack,
+                   bool inside_out) {
+    const auto corner = [&](std::uint32_t face, std::size_t i) {
+        return glm::dvec3(mesh.positions()[mesh.faces()[face][i]]);
+    };
+    constexpr std::size_t looked_at = 4;
+    for (std::size_t i = 0; i < faces.size(); i += 1 + faces.size() / looked_at) {
+        const glm::dvec3 a = corner(faces[i], 0);
+        const glm::dvec3 normal = glm::cross(corner(faces[i], 1) - a, corner(faces[i], 2) - a);
+        const double most = slack * glm::length(normal);
+        for (const std::uint32_t face : faces) {
+            const double before = glm::dot(normal, corner(face, 0) - a);
+            if ((inside_out ? -before : before) > most) return false;
+        }
+    }
+    return true;
+}
+
 void measure(ConvexPart& part) {
     for (const glm::vec3& v : part.vertices) part.center += glm::dvec3(v);
     part.center /= static_cast<double>(part.vertices.size());
@@ -117,29 +141,36 @@ public:
         inward_ = inside_out;
         faces_.clear();
         normals_.clear();
+        corners_.clear();
         add(face);
     }
     void add(std::uint32_t face) {
         faces_.push_back(face);
         normals_.push_back(normal_of(face));
+        for (const std::uint32_t vertex : mesh_.faces()[face]) {
+            if (std::ranges::find(corners_, vertex) == corners_.end()) corners_.push_back(vertex);
+        }
     }
     [[nodiscard]] bool has(std::uint32_t face) const {
         return std::ranges::find(faces_, face) != faces_.end();
     }
     [[nodiscard]] bool may_add(std::uint32_t face) const {
         const glm::dvec3 normal = normal_of(face);
-        for (std::size_t i = 0; i < faces_.size(); ++i) {
-            bool is_flat = true;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double one = glm::dot(normal, corner(faces_[i], k) - corner(face, 0));
-                const double other = glm::dot(normals_[i], corner(face, k) - corner(faces_[i], 0));
-                if (one > slack_ || other > slack_) return false;
-                is_flat = is_flat && one > -slack_ && other > -slack_;
+        for (const std::uint32_t vertex : corners_) {
+            if (glm::dot(normal, at(vertex) - corner(face, 0)) > slack_) return false;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (std::ranges::find(corners_, mesh_.faces()[face][k]) != corners_.end()) continue;
+            for (std::size_t i = 0; i < faces_.size(); ++i) {
+                const glm::dvec3 way = corner(face, k) - corner(faces_[i], 0);
+                if (glm::dot(normals_[i], way) > slack_) return false;
             }
-            // In one plane: neither may have a corner beyond a side of the other's that is a
-            // border.
-            if (is_flat && (!is_beside(faces_[i], face, face, normals_[i]) ||
-                            !is_beside(face, faces_[i], face, normal))) {
+        }
+        // In one plane: neither may have a corner beyond a side of the other's that is a border.
+        for (std::size_t i = 0; i < faces_.size(); ++i) {
+            if (glm::dot(normal, normals_[i]) < 1.0 - flat_slack) continue;
+            if (!is_beside(faces_[i], face, face, normals_[i]) ||
+                !is_beside(face, faces_[i], face, normal)) {
                 return false;
             }
         }
@@ -147,8 +178,11 @@ public:
     }
 
 private:
+    [[nodiscard]] glm::dvec3 at(std::uint32_t vertex) const {
+        return glm::dvec3(mesh_.positions()[vertex]);
+    }
     [[nodiscard]] glm::dvec3 corner(std::uint32_t face, std::size_t i) const {
-        return glm::dvec3(mesh_.positions()[mesh_.faces()[face][i]]);
+        return at(mesh_.faces()[face][i]);
     }
     [[nodiscard]] glm::dvec3 normal_of(std::uint32_t face) const {
         const glm::dvec3 a = corner(face, 0);
@@ -181,36 +215,42 @@ private:
     bool inward_ = false;
     std::vector<std::uint32_t> faces_;
     std::vector<glm::dvec3> normals_;
+    std::vector<std::uint32_t> corners_;
 };
 
 // From the largest faces that are in no part yet.
 void grow_parts(const ShadowMesh& mesh, const std::vector<std::uint8_t>& is_convex_component,
                 std::vector<ConvexPart>& parts) {
     if (mesh.faces().size() > most_faces_to_grow) return;
+    const auto area_of = [&](std::uint32_t face) {
+        const auto& [a, b, c] = mesh.faces()[face];
+        const glm::dvec3 at(mesh.positions()[a]);
+        return 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions()[b]) - at,
+                                            glm::dvec3(mesh.positions()[c]) - at));
+    };
     std::vector<std::pair<double, std::uint32_t>> seeds;
     for (std::uint32_t f = 0; f < mesh.faces().size(); ++f) {
         if (is_convex_component[mesh.face_components()[f]] != 0 || mesh.is_degenerate(f)) continue;
-        const auto& [a, b, c] = mesh.faces()[f];
-        const glm::dvec3 at(mesh.positions()[a]);
-        const double area = glm::length(
-            glm::cross(glm::dvec3(mesh.positions()[b]) - at, glm::dvec3(mesh.positions()[c]) - at));
+        const double area = area_of(f);
         if (area > 0.0) seeds.emplace_back(-area, f);
     }
     std::ranges::sort(seeds);
     const double size = glm::length(glm::dvec3(mesh.bounds_max()) - glm::dvec3(mesh.bounds_min()));
     Growth growth(mesh, size);
     std::vector<std::uint8_t> is_taken(mesh.faces().size(), 0);
+    std::vector<std::pair<double, std::vector<std::uint32_t>>> grown;  // by area, negative
     std::size_t tried = 0;
     for (const auto& [area, seed] : seeds) {
         if (is_taken[seed] != 0) continue;
-        if (++tried > most_seeds) break;
+        const double enough = static_cast<double>(most_grown_faces) * -area;
+        if (++tried > most_seeds || enough < least_area * size * size) break;
         const Component& component = mesh.components()[mesh.face_components()[seed]];
         growth.begin(seed, component.inside_out);
         for (std::size_t i = 0; i < growth.faces().size(); ++i) {
             for (const std::uint32_t edge : mesh.face_edges()[growth.faces()[i]]) {
                 if (edge >= mesh.regular_edges()) continue;
                 for (const FaceUse& use : mesh.uses(mesh.edges()[edge])) {
-                    if (growth.faces().size() < most_convex_faces && is_taken[use.face] == 0 &&
+                    if (growth.faces().size() < most_grown_faces && is_taken[use.face] == 0 &&
                         !mesh.is_degenerate(use.face) && !growth.has(use.face) &&
                         growth.may_add(use.face)) {
                         growth.add(use.face);
@@ -218,13 +258,24 @@ void grow_parts(const ShadowMesh& mesh, const std::vector<std::uint8_t>& is_conv
                 }
             }
         }
-        for (const std::uint32_t f : growth.faces()) is_taken[f] = 1;
+        double grown_area = 0.0;
+        for (const std::uint32_t f : growth.faces()) {
+            is_taken[f] = 1;
+            grown_area += area_of(f);
+        }
+        if (grown_area < least_area * size * size) continue;
+        grown.emplace_back(-grown_area, growth.faces());
+    }
+    std::ranges::stable_sort(grown, {}, [](const auto& faces) { return faces.first; });
+    if (grown.size() > most_convex_parts) grown.resize(most_convex_parts);
+    for (const auto& [area, faces] : grown) {
+        const Component& component = mesh.components()[mesh.face_components()[faces[0]]];
         ConvexPart part;
-        if (!gather(mesh, growth.faces(), part)) continue;
+        if (!gather(mesh, faces, part)) continue;
         part.inside_out = component.inside_out;
         part.two_sided = !component.closed;
         measure(part);
-        if (part.area >= least_area * size * size) parts.push_back(std::move(part));
+        parts.push_back(std::move(part));
     }
 }
 
@@ -251,6 +302,8 @@ std::vector<ConvexPart> find_parts(const ShadowMesh& mesh) {
     }
     for (std::size_t i = 0; i < tried.size(); ++i) {
         const Component& component = components[tried[i]];
+        const double slack = convex_slack * size_of(component);
+        if (!may_be_convex(mesh, faces[i], slack, component.inside_out)) continue;
         ConvexPart part;
         if (!gather(mesh, faces[i], part)) continue;
         part.whole = true;

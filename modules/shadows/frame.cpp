@@ -235,6 +235,9 @@ void ShadowSystem::State::take_up_deferred() {
         if (c >= lights[l].pairs.size()) return true;
         return !waits(lights[l].pairs[c].reason);
     });
+    // One that did not wait for a while, and then again, is there twice.
+    std::sort(deferred.begin(), deferred.end());
+    deferred.erase(std::unique(deferred.begin(), deferred.end()), deferred.end());
     for (const auto& [l, c] : deferred) {
         if (lights[l].changed || casters[c].changed) continue;  // has been taken up
         work.push_back({.light = l, .caster = c});

@@ -21,16 +21,25 @@ bool may_hide_others(const CasterState& caster) {
            !caster.mesh->is_deformed();
 }
 
-// How large the light sees a part, about; 0: not at all.
-double score_of(const CasterState& caster, const ConvexPart& part, const Light& light) {
+// How large the light sees a part of an area, about; 0: not at all.
+double score_of(const CasterState& caster, double area_local, const Light& light) {
     const glm::dmat4& pose = caster.pose.world_from_local;
     double scale2 = 0.0;
     for (int i = 0; i < 3; ++i) scale2 += glm::dot(glm::dvec3(pose[i]), glm::dvec3(pose[i])) / 3.0;
-    const double area = scale2 * part.area;
+    const double area = scale2 * area_local;
     if (light.position_world.w == 0.0) return area;
     const glm::dvec3 way = caster.center - glm::dvec3(light.position_world);
     const double distance2 = std::max(glm::dot(way, way), 0.25 * caster.radius * caster.radius);
     return distance2 > 0.0 ? area / distance2 : 0.0;
+}
+
+// No part's score is higher: what is convex has no more area than a box round it. Saves looking for
+// the parts of most meshes.
+double most_score_of(const CasterState& caster, const Light& light) {
+    const glm::dvec3 size =
+        glm::dvec3(caster.mesh->bounds_max()) - glm::dvec3(caster.mesh->bounds_min());
+    const double area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    return score_of(caster, 1.01 * area, light);
 }
 
 }  // namespace
@@ -65,17 +74,18 @@ bool LightUmbras::keeps_candidates(const UmbraTerms& terms) {
     for (const std::uint32_t c : terms.changed) {
         const CasterState& caster = terms.casters[c];
         const bool may = may_hide_others(caster) && !is_out_of_range(caster, terms.light);
+        const bool is_one =
+            std::ranges::find(candidates_, c, &Candidate::caster) != candidates_.end();
+        if (!is_one && (!may || most_score_of(caster, terms.light) < least.score)) continue;
         const std::vector<ConvexPart>* parts = may ? &convex_parts(*caster.mesh) : nullptr;
-        std::size_t found = 0;
         for (Candidate& candidate : candidates_) {
             if (candidate.caster != c) continue;
             if (!may || candidate.part >= parts->size()) return false;
             candidate.anew = true;
             candidate.made = false;
-            ++found;
         }
         for (std::uint32_t p = 0; may && p < parts->size(); ++p) {
-            const double score = score_of(caster, (*parts)[p], terms.light);
+            const double score = score_of(caster, (*parts)[p].area, terms.light);
             const bool beats = score != least.score      ? score > least.score
                                : caster.key != least.key ? caster.key < least.key
                                                          : p < least.part;
@@ -97,9 +107,13 @@ void LightUmbras::choose(const UmbraTerms& terms) {
     for (const std::uint32_t c : terms.casters.by_key()) {
         const CasterState& caster = terms.casters[c];
         if (!may_hide_others(caster) || is_out_of_range(caster, terms.light)) continue;
+        if (candidates_.size() == most &&
+            !is_worse(candidates_.back(), most_score_of(caster, terms.light))) {
+            continue;
+        }
         const std::vector<ConvexPart>& parts = convex_parts(*caster.mesh);
         for (std::uint32_t p = 0; p < parts.size(); ++p) {
-            const double score = score_of(caster, parts[p], terms.light);
+            const double score = score_of(caster, parts[p].area, terms.light);
             if (!(score > 0.0)) continue;
             if (candidates_.size() == most) {
                 if (!is_worse(candidates_.back(), score)) continue;

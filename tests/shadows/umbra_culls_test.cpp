@@ -159,6 +159,26 @@ TEST_F(UmbraCulls, CostNothingWhereOnlyTheCameraMoves) {
     EXPECT_EQ(drawn(frame()), Keys{thing});
 }
 
+TEST_F(UmbraCulls, TakeUpAPairOnceThatWasOutOfViewTwice) {
+    const View away = from({0, 12, 40}, {0, 12, 80});
+    casters_.erase(wall);
+    EXPECT_EQ(pairs(frame(system_, away), Reason::OutOfView), 1U);
+    const Caster hides{
+        .key = wall, .mesh = box_, .world_from_local = standing({0, 3, 0}, {0.1, 3, 3})};
+    for (int i = 0; i < 3; ++i) {
+        casters_[wall] = hides;
+        light_.position_world.y += 0.001;
+        EXPECT_EQ(pairs(frame(system_, away), Reason::InUmbra), 1U);
+        casters_.erase(wall);
+        light_.position_world.y += 0.001;
+        EXPECT_EQ(pairs(frame(system_, away), Reason::OutOfView), 1U);
+    }
+    const DrawList& back = frame();
+    ASSERT_EQ(back.draws.size(), 1U);
+    EXPECT_EQ(back.draws[0].reason, Reason::New);
+    EXPECT_EQ(back.stats.pairs_redetected, 1U);
+}
+
 TEST_F(UmbraCulls, KeepOneOfTwoThatAreInOnePlace) {
     casters_[thing] = casters_[wall];
     casters_[thing].key = thing;

@@ -39,7 +39,7 @@ struct UmbraTerms {
 /// all would have one nearer.
 class LightUmbras {
 public:
-    /// Candidates of a light. More were not worth their asking.
+    /// Candidates of a light. More hide little more, and all that moves is asked about them.
     static constexpr std::size_t most = 32;
 
     /// Writes down whose state turned(). Cost: where nothing changed, nothing; for each caster that
