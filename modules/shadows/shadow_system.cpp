@@ -86,6 +86,7 @@ void ShadowSystem::State::submit(const Caster& caster) {
         known.moved = true;
     }
     enclose(known);
+    known.hides_m2 = internal::most_hiding_area(known);
 }
 
 void ShadowSystem::State::submit(const Light& light) {

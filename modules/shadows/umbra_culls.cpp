@@ -15,34 +15,45 @@ namespace internal {
 
 namespace {
 
-bool may_hide_others(const CasterState& caster) {
-    // Averted caps begin behind the caster's own inside, where it does not shadow itself.
-    return caster.pose.finite && !caster.pose.singular && caster.near_caps == NearCaps::Facing &&
-           !caster.mesh->is_deformed();
-}
+bool may_hide_others(const CasterState& caster) { return caster.hides_m2 > 0.0; }
 
-// How large the light sees a part of an area, about; 0: not at all.
-double score_of(const CasterState& caster, double area_local, const Light& light) {
+double squared_scale(const CasterState& caster) {
     const glm::dmat4& pose = caster.pose.world_from_local;
     double scale2 = 0.0;
     for (int i = 0; i < 3; ++i) scale2 += glm::dot(glm::dvec3(pose[i]), glm::dvec3(pose[i])) / 3.0;
-    const double area = scale2 * area_local;
-    if (light.position_world.w == 0.0) return area;
-    const glm::dvec3 way = caster.center - glm::dvec3(light.position_world);
-    const double distance2 = std::max(glm::dot(way, way), 0.25 * caster.radius * caster.radius);
-    return distance2 > 0.0 ? area / distance2 : 0.0;
+    return scale2;
 }
 
-// No part's score is higher: what is convex has no more area than a box round it. Saves looking for
-// the parts of most meshes.
+// How large the light sees something of an area, about; 0: not at all.
+double score_of(const CasterState& caster, double area_m2, const Light& light) {
+    if (light.position_world.w == 0.0) return area_m2;
+    const glm::dvec3 way = caster.center - glm::dvec3(light.position_world);
+    const double distance2 = std::max(glm::dot(way, way), 0.25 * caster.radius * caster.radius);
+    return distance2 > 0.0 ? area_m2 / distance2 : 0.0;
+}
+
+double score_of(const CasterState& caster, const ConvexPart& part, const Light& light) {
+    return score_of(caster, squared_scale(caster) * part.area, light);
+}
+
+// No part's score is higher. Saves looking for the parts of most meshes.
 double most_score_of(const CasterState& caster, const Light& light) {
-    const glm::dvec3 size =
-        glm::dvec3(caster.mesh->bounds_max()) - glm::dvec3(caster.mesh->bounds_min());
-    const double area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-    return score_of(caster, 1.01 * area, light);
+    return score_of(caster, caster.hides_m2, light);
 }
 
 }  // namespace
+
+double most_hiding_area(const CasterState& caster) {
+    // Averted caps begin behind the caster's own inside, where it does not shadow itself.
+    if (!caster.pose.finite || caster.pose.singular || caster.near_caps != NearCaps::Facing ||
+        caster.mesh->is_deformed()) {
+        return 0.0;
+    }
+    const glm::dvec3 size =
+        glm::dvec3(caster.mesh->bounds_max()) - glm::dvec3(caster.mesh->bounds_min());
+    const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    return 1.01 * squared_scale(caster) * box;
+}
 
 void LightUmbras::forget(std::uint32_t caster) {
     if (caster < behind_.size()) set(caster, 0);
@@ -85,7 +96,7 @@ bool LightUmbras::keeps_candidates(const UmbraTerms& terms) {
             candidate.made = false;
         }
         for (std::uint32_t p = 0; may && p < parts->size(); ++p) {
-            const double score = score_of(caster, (*parts)[p].area, terms.light);
+            const double score = score_of(caster, (*parts)[p], terms.light);
             const bool beats = score != least.score      ? score > least.score
                                : caster.key != least.key ? caster.key < least.key
                                                          : p < least.part;
@@ -113,7 +124,7 @@ void LightUmbras::choose(const UmbraTerms& terms) {
         }
         const std::vector<ConvexPart>& parts = convex_parts(*caster.mesh);
         for (std::uint32_t p = 0; p < parts.size(); ++p) {
-            const double score = score_of(caster, parts[p].area, terms.light);
+            const double score = score_of(caster, parts[p], terms.light);
             if (!(score > 0.0)) continue;
             if (candidates_.size() == most) {
                 if (!is_worse(candidates_.back(), score)) continue;

@@ -45,6 +45,7 @@ struct CasterState : SlotHead {
     // A sphere round its bounds, in the world.
     glm::dvec3 center{0.0};
     double radius = 0.0;
+    double hides_m2 = 0.0;  ///< no part that others can lie behind has more area; 0: there is none
 };
 
 [[nodiscard]] OrientedBounds bounds_of(const CasterState& caster);

@@ -21,6 +21,9 @@ namespace gnomon::shadows::internal {
 
 struct CasterState;
 
+/// CasterState::hides_m2: what is convex has no more area than a box round it. Cost: some flops.
+[[nodiscard]] double most_hiding_area(const CasterState& caster);
+
 /// What has changed since LightUmbras was brought up to date last, and what has not.
 struct UmbraTerms {
     const Slots<CasterState>& casters;
