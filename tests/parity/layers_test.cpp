@@ -147,9 +147,12 @@ std::size_t count_of(const std::vector<std::uint8_t>& bytes, std::uint8_t value)
 class Layers : public DeviceTest {
 protected:
     Picture take(const Setting& setting, std::uint32_t samples, Technique technique) {
-        return must(take_picture(
-            device(), setting,
-            {.width = width, .height = height, .samples = samples, .technique = technique}));
+        return must(take_picture(device(), setting,
+                                 {.width = width,
+                                  .height = height,
+                                  .samples = samples,
+                                  .technique = technique,
+                                  .fill = {.cull_by_umbra = false}}));
     }
 
     // `make(1)` is the shape of the pile's shadow.
