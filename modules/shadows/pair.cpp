@@ -240,6 +240,29 @@ CapOptions caps_for(const CasterState& caster, const FrameTerms& terms, PairWork
                                               : CapOptions::ranges_alone(terms.caps.far_cap);
 }
 
+// Whether the silhouette that was found for `detected` will do for `current` (StaleOptions).
+bool may_stay_stale(const StaleOptions& stale, const ShadowMesh& mesh, LightLocal detected,
+                    LightLocal current, std::uint64_t turn) {
+    if (stale.none()) return false;
+    const glm::dvec3 low(mesh.bounds_min());
+    const glm::dvec3 high(mesh.bounds_max());
+    const double w = current.is_directional() ? 0.0 : 1.0;
+    // From within, other faces cast and other caps close a volume.
+    for (const LightLocal& light : {detected, current}) {
+        const glm::dvec3 p(light.position);
+        const bool inside =
+            glm::all(glm::greaterThanEqual(p, low)) && glm::all(glm::lessThanEqual(p, high));
+        if (w != 0.0 && inside) return false;
+    }
+    if (stale.detect_every > 1 && turn % stale.detect_every != 0) return true;
+    const glm::dvec3 middle = w * 0.5 * (low + high);
+    const glm::dvec3 before = glm::dvec3(detected.position) - middle;
+    const glm::dvec3 now = glm::dvec3(current.position) - middle;
+    const double angle_rad =
+        std::atan2(glm::length(glm::cross(before, now)), glm::dot(before, now));
+    return angle_rad <= stale.pose_tolerance_rad;
+}
+
 }  // namespace
 
 std::uint64_t next_volume_revision() {
@@ -350,9 +373,15 @@ void update_pair(PairState& pair, const CasterState& caster, const LightState& l
                 const bool certified =
                     comparable && displacement(detected, current_light(pair, light)) <=
                                       static_cast<double>(pair.margin);
-                if (!certified) light_is_new = true;
+                const bool stale =
+                    comparable && !certified &&
+                    may_stay_stale(terms.stale, *caster.mesh, detected, current_light(pair, light),
+                                   terms.frame + work.caster);
+                if (!certified && !stale) light_is_new = true;
                 if (reason == Reason::Unchanged) {
-                    reason = certified ? Reason::WithinMargin : what_moved(caster, light);
+                    reason = certified ? Reason::WithinMargin
+                             : stale   ? Reason::LeftStale
+                                       : what_moved(caster, light);
                 }
             }
         }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -56,6 +57,7 @@ std::string_view to_string(Reason reason) {
         case Reason::OutOfView: return "out of view";
         case Reason::ReachesNothing: return "reaches nothing";
         case Reason::InUmbra: return "in an umbra";
+        case Reason::LeftStale: return "left stale";
     }
     return "";
 }
@@ -177,6 +179,17 @@ Result<ShadowSystem> ShadowSystem::create(const SystemOptions& options) {
         return fail(ErrorCode::InvalidInput,
                     "SystemOptions::max_layers is " + std::to_string(options.max_layers) +
                         "; it must lie within 1 and 255, what a stencil of eight bits counts.");
+    }
+    const StaleOptions& stale = options.stale;
+    if (!(stale.pose_tolerance_rad >= 0.0 && stale.pose_tolerance_rad <= std::numbers::pi)) {
+        return fail(ErrorCode::InvalidInput, "StaleOptions::pose_tolerance_rad is " +
+                                                 std::to_string(stale.pose_tolerance_rad) +
+                                                 "; it must lie within 0, which is exact, and pi.");
+    }
+    if (stale.detect_every < 1 || stale.detect_every > 1024) {
+        return fail(ErrorCode::InvalidInput,
+                    "StaleOptions::detect_every is " + std::to_string(stale.detect_every) +
+                        "; it must lie within 1, which is exact, and 1024.");
     }
     auto state = std::make_unique<State>();
     state->options = options;

@@ -69,8 +69,9 @@ enum class Reason : std::uint8_t {
     OutOfView,          ///< nothing of the shadow can be seen: no volume until it can
     ReachesNothing,     ///< the shadow reaches no receiver: no volume until it does
     InUmbra,            ///< the caster lies in another's shadow: no volume until it does not
+    LeftStale,          ///< moved, and StaleOptions allow the silhouette to be out of date
 };
-inline constexpr std::size_t reason_count = 13;
+inline constexpr std::size_t reason_count = 14;
 [[nodiscard]] std::string_view to_string(Reason reason);
 
 /// One volume to draw.
@@ -169,6 +170,23 @@ enum class Submission : std::uint8_t {
     Delta,  ///< what is not submitted is as it was; use remove_caster and remove_light
 };
 
+/// Silhouettes that may be out of date, for hosts that would rather be a little wrong than wait.
+/// Volumes stay closed, so that nothing leaks: what is wrong lies between the shadow's edge as it
+/// is and as it was. All off: exact. A pair is never left out of date where its light enters the
+/// caster's bounds, nor where the mesh or what else its volume is made for has changed; and quads
+/// of the GPU that decide facing in the shader are always up to date. What has come to rest stays
+/// as it is: within the tolerance, and up to detect_every - 1 frames of motion behind.
+struct StaleOptions {
+    /// 0 .. pi: the silhouette is kept while the light, as seen from the middle of the caster's
+    /// bounds and in the caster's space, has turned by no more since it was found.
+    double pose_tolerance_rad = 0.0;
+    /// 1 .. 1024: a pair that moves in every frame has a new silhouette in every n-th alone, pairs
+    /// in turn. After H. Y. Kwoon, "The Theory of Stencil Shadow Volumes" (2002).
+    std::uint32_t detect_every = 1;
+
+    [[nodiscard]] bool none() const { return pose_tolerance_rad == 0.0 && detect_every == 1; }
+};
+
 /// How it is known that no point lies under more layers than the stencil counts.
 enum class LayerBound : std::uint8_t {
     /// Each light's layers are bounded from above, and split where the bound is too high. Pairs
@@ -196,6 +214,7 @@ struct SystemOptions {
     CapOptions caps = {};
     Receivers receivers = Receivers::Anywhere;
     FillOptions fill = {};
+    StaleOptions stale = {};
 };
 
 /// What a ShadowSystem holds, in bytes: capacities, without what the allocator adds.
@@ -216,8 +235,8 @@ struct SystemMemory {
 
 class ShadowSystem {
 public:
-    /// Fails with ErrorCode::InvalidInput for an unknown strategy name or max_layers beyond 1 ..
-    /// 255.
+    /// Fails with ErrorCode::InvalidInput for an unknown strategy name, max_layers beyond 1 .. 255
+    /// or stale options beyond their limits.
     [[nodiscard]] static Result<ShadowSystem> create(const SystemOptions& options = {});
     ShadowSystem(ShadowSystem&&) noexcept;
     ShadowSystem& operator=(ShadowSystem&&) noexcept;

@@ -193,6 +193,7 @@ struct FrameTerms {
     std::optional<Technique> force_technique = std::nullopt;
     VolumePool* pool = nullptr;      ///< for volumes; null: each is new
     const NearClip* clip = nullptr;  ///< the light's; null: every cap may be drawn
+    StaleOptions stale = {};
 };
 
 /// A pair that may have changed, and what came of it.

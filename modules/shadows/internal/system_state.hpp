@@ -114,7 +114,8 @@ struct ShadowSystem::State {
                 .caps = options.caps,
                 .fill = fill_terms(),
                 .force_technique = options.force_technique,
-                .pool = &pool};
+                .pool = &pool,
+                .stale = options.stale};
     }
     [[nodiscard]] internal::FillTerms fill_terms() const {
         const bool known = options.receivers == Receivers::Submitted;
