@@ -19,6 +19,9 @@
 #include "devices.hpp"
 #include "inspect_command.hpp"
 #include "render_options.hpp"
+#if GNOMON_HAS_REPORT
+#include "report_arguments.hpp"
+#endif
 
 namespace {
 
@@ -269,8 +272,24 @@ int run(int argc, char** argv) {
     cli::InspectOptions inspect;
     const CLI::App* inspect_app = add_inspect(app, inspect);
 
+    std::vector<std::string> commands{"render", "inspect"};
+#if GNOMON_HAS_REPORT
+    cli::ReportOptions report_options{.version = GNOMON_VERSION,
+                                      .command = cli::command_line({argv, argv + argc})};
+    bool list_techniques = false;
+    const CLI::App* report_app = cli::add_report(app, report_options, list_techniques);
+    commands.emplace_back("report");
+#endif
+
+#if !GNOMON_HAS_REPORT
+    if (argc > 1 && std::string_view(argv[1]) == "report") {
+        return report({ErrorCode::Unsupported,
+                       "This build has no report: Embree, which traces the truth, was not found "
+                       "when it was made (package libembree-dev)."});
+    }
+#endif
+
     // Of an unknown one CLI11 would only say that a subcommand is missing.
-    const std::vector<std::string> commands{"render", "inspect"};
     if (argc > 1 && argv[1][0] != '-' &&
         std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
         return report(
@@ -295,6 +314,16 @@ int run(int argc, char** argv) {
         fmt::print("{}", *text);
         return 0;
     }
+#if GNOMON_HAS_REPORT
+    if (report_app->parsed()) {
+        if (list_techniques) {
+            fmt::print("{}", cli::technique_list());
+            return 0;
+        }
+        const Status done = cli::run_report(report_options);
+        return done ? 0 : report(done.error());
+    }
+#endif
     if (list_silhouettes) {
         const auto& automatic = shadows::automatic_strategy();
         fmt::print("{}: {}\n", automatic.name, automatic.summary);

@@ -45,6 +45,11 @@ const std::vector<Layer>& layers() {
          {"scene", "scene_shadows", "shadow_pass", "gpu"},
          {"glm/", "tl/", "fmt/", "gnomon_shaders/render.hpp"}},
         {"truth", {"modules/truth/"}, {"shadows", "scene"}, {"glm/", "tl/", "fmt/", "embree3/"}},
+        {"report",
+         {"modules/report/"},
+         {"truth", "render", "scene_shadows", "shadow_pass", "gpu"},
+         {"glm/", "tl/", "fmt/", "nlohmann/", "embree3/", "meshoptimizer.h",
+          "stb/stb_image_write.h", "gnomon_shaders/report.hpp"}},
         {"gl", {"backends/gl/"}, {"gpu"}, {"tl/", "fmt/", "GL/", "GLFW/", "KHR/", "dlfcn.h"}},
         {"vk", {"backends/vk/"}, {"gpu"}, {"tl/", "fmt/", "vulkan/", "volk.h", "dlfcn.h"}},
     };

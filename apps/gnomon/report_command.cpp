@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+#include "report_command.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <gnomon/report/report.hpp>
+#include <gnomon/report/writers.hpp>
+#include <gnomon/scene/primitives.hpp>
+#include <gnomon/scene/transforms.hpp>
+
+#include <gnomon_revision.hpp>
+
+#include "devices.hpp"
+#include "files.hpp"
+#include "plots.hpp"
+#include "render_setup.hpp"
+
+namespace gnomon::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t most_lights = 4;
+
+/// From where a file is looked at, and by which light. Without: as `gnomon render` would.
+struct Look {
+    glm::dvec3 eye{0.0};
+    glm::dvec3 target{0.0};
+    double fovy_deg = 0.0;
+    LightArgument light = {};
+};
+/// A scene of the standard set.
+struct Standard {
+    const char* name;
+    const char* source;  ///< a file: below one of the folders of models
+    report::Kind kind;
+    bool quick = false;
+    std::optional<Look> look = std::nullopt;
+    bool ground = false;  ///< is put below: the model has none
+};
+// The camera stands where a player would, the sun where it throws long shadows.
+constexpr Standard standard_set[] = {
+    {"room", "builtin:room", report::Kind::Indoor, true},
+    {"duplex-house", "scenes/duplex-house.glb", report::Kind::Indoor, false,
+     Look{{-4.0, 1.7, 3.0}, {-4.0, 0.8, 10.0}, 70.0, {false, {-4.0, 2.2, 6.0}}}},
+    {"godot-room", "scenes/godot-room.glb", report::Kind::Indoor, false,
+     Look{{4.3, 1.7, 1.3}, {-2.0, 1.0, -1.3}, 70.0, {false, {1.5, 4.3, 2.2}}}},
+    {"pillars", "builtin:pillars", report::Kind::Outdoor, true},
+    {"linz-old-town", "scenes/linz-old-town.glb", report::Kind::Outdoor, false,
+     Look{{-150.0, 70.0, 260.0}, {20.0, 5.0, 40.0}, 50.0, {true, {-1.0, -0.9, -0.6}}}},
+    {"knot", "builtin:knot", report::Kind::Hero, true},
+    {"engine", "glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb", report::Kind::Hero, false,
+     std::nullopt, true},
+    {"flight-helmet", "props/flight-helmet.glb", report::Kind::Hero, false, std::nullopt, true},
+    {"open-shapes", "builtin:open-shapes", report::Kind::Other},
+    {"still-life", "builtin:still-life", report::Kind::Other},
+};
+constexpr const char* model_folders[] = {"/usr/share/assimp/models", "../shared/models"};
+
+struct Wanted {
+    std::string name;
+    std::string source;
+    report::Kind kind = report::Kind::Other;
+    std::optional<Look> look = std::nullopt;
+    bool ground = false;
+};
+
+std::vector<Wanted> standard_scenes(bool quick) {
+    std::vector<Wanted> scenes;
+    for (const Standard& standard : standard_set) {
+        if (quick && !standard.quick) continue;
+        const std::string source = standard.source;
+        if (source.starts_with("builtin:")) {
+            scenes.push_back({standard.name, source, standard.kind, {}, false});
+            continue;
+        }
+        for (const char* folder : model_folders) {
+            std::error_code error;
+            const fs::path file = fs::path(folder) / source;
+            if (!fs::is_regular_file(file, error)) continue;
+            scenes.push_back(
+                {standard.name, file.string(), standard.kind, standard.look, standard.ground});
+            break;
+        }
+    }
+    return scenes;
+}
+
+std::vector<Wanted> given_scenes(const std::vector<std::string>& sources) {
+    std::vector<Wanted> scenes;
+    std::set<std::string> taken;
+    for (const std::string& source : sources) {
+        std::string name =
+            source.starts_with("builtin:") ? source.substr(8) : fs::path(source).stem().string();
+        report::Kind kind = report::Kind::Other;
+        for (const Standard& standard : standard_set) {
+            if (source == standard.source) kind = standard.kind;
+        }
+        const std::string stem = name;
+        for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{} ({})", stem, i);
+        scenes.push_back({std::move(name), source, kind, {}, false});
+    }
+    return scenes;
+}
+
+// Any other program may measure otherwise.
+std::string build_of_this_program() {
+    std::ifstream file("/proc/self/exe", std::ios::binary);
+    std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
+    std::vector<char> block(std::size_t{1} << 20U);
+    while (file) {
+        file.read(block.data(), static_cast<std::streamsize>(block.size()));
+        for (std::streamsize i = 0; i < file.gcount(); ++i) {
+            hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) *
+                   0x100000001b3ULL;
+        }
+    }
+    return fmt::format("{:016x}", hash);
+}
+
+// So much larger than the model that its border is out of sight, and just below it.
+void put_on_ground(Shot& shot) {
+    const double size_m = 8.0 * shot.bounds.diagonal();
+    const glm::dvec3 middle = shot.bounds.center();
+    const double height_m = shot.bounds.min.y - 1e-3 * shot.bounds.diagonal();
+    const scene::Entity ground =
+        shot.scene.create_node("ground", {.translation = {middle.x, height_m, middle.z}});
+    scene::Registry& registry = shot.scene.registry;
+    registry.emplace<scene::MeshInstance>(
+        ground, std::make_shared<const scene::Mesh>(
+                    scene::make_plane(static_cast<float>(size_m), static_cast<float>(size_m))));
+    registry.emplace<scene::Receiver>(ground);
+    scene::update_world_transforms(registry);
+}
+
+Result<report::Subject> load_subject(const Wanted& wanted, const report::Options& options) {
+    RenderOptions shown{.scene = wanted.source, .size = {options.width, options.height}};
+    if (wanted.look) {
+        shown.eye = wanted.look->eye;
+        shown.target = wanted.look->target;
+        shown.fovy_deg = wanted.look->fovy_deg;
+        shown.lights = {wanted.look->light};
+    }
+    auto shot = make_shot(shown);
+    if (!shot) return forward_error(shot);
+    if (wanted.ground) put_on_ground(*shot);
+    report::Subject subject;
+    subject.name = wanted.name;
+    subject.source = wanted.source;
+    subject.kind = wanted.kind;
+    subject.scene = std::move(shot->scene);
+    subject.camera = shot->camera;
+    subject.world_from_camera = shot->world_from_camera;
+    subject.near_m = shot->near_m;
+    report::keep_lights(subject, options, most_lights);
+    return subject;
+}
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string minutes(double seconds) {
+    if (seconds < 100.0) return fmt::format("{:.0f} s", seconds);
+    return fmt::format("{:.0f} min", seconds / 60.0);
+}
+
+class ReportRun {
+public:
+    explicit ReportRun(const ReportOptions& options) : options_(options) {}
+    Status prepare();
+    Status measure_all();
+    Status write_tables();
+    Status finish();
+
+private:
+    Status measure_one(const Wanted& wanted, gpu::Device& device, double begins, double share);
+    void tell(double done, const std::string& what);
+
+    const ReportOptions& options_;
+    report::Report report_;
+    std::vector<Wanted> scenes_;
+    std::vector<std::pair<std::string, gpu::Device>> devices_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_told_{};
+    double taken_over_ = 0.0;  // share of the work that an earlier run did
+};
+
+Status ReportRun::prepare() {
+    report::Options& o = report_.options;
+    o.quick = options_.quick;
+    o.version = options_.version;
+    if (*GNOMON_REVISION != '\0') o.version += fmt::format(" ({})", GNOMON_REVISION);
+    o.build = build_of_this_program();
+    const Size size = options_.size.value_or(options_.quick ? Size{320, 180} : Size{960, 540});
+    o.width = size.width;
+    o.height = size.height;
+    o.rounds = options_.rounds.value_or(options_.quick ? 3 : 5);
+    // Far enough for each tolerance to be used up.
+    o.frames = options_.frames.value_or(options_.quick ? 4 : 12);
+    o.only = options_.techniques;
+    const std::vector<std::string> known = report::technique_names();
+    for (const std::string& name : o.only) {
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            return fail(ErrorCode::InvalidInput,
+                        fmt::format("--technique: there is no technique \"{}\"; --list-techniques "
+                                    "names all.",
+                                    name));
+        }
+    }
+    std::error_code error;
+    fs::create_directories(options_.out / "cells", error);
+    if (error) {
+        return fail(ErrorCode::Io, fmt::format("{} cannot be made: {}.",
+                                               (options_.out / "cells").string(), error.message()));
+    }
+    if (const Status writable = check_writable(options_.out / "report.html"); !writable) {
+        return writable;
+    }
+    scenes_ =
+        options_.scenes.empty() ? standard_scenes(options_.quick) : given_scenes(options_.scenes);
+    const std::vector<std::string> backends =
+        options_.backends.empty() ? std::vector<std::string>{""} : options_.backends;
+    for (const std::string& backend : backends) {
+        auto device = create_device({.backend = backend});
+        if (!device) return forward_error(device);
+        if (device->caps().backend == "null") {
+            return fail(ErrorCode::InvalidInput,
+                        "--backend: \"null\" draws nothing, so that nothing can be judged.");
+        }
+        const std::uint32_t limit = device->caps().limits.max_texture_dimension_2d;
+        if (o.width > limit || o.height > limit) {
+            return fail(ErrorCode::InvalidInput,
+                        fmt::format("--size: {}x{} is larger than {} takes; its limit is {}.",
+                                    o.width, o.height, device->caps().adapter, limit));
+        }
+        std::string name = device->caps().backend;
+        devices_.emplace_back(std::move(name), std::move(*device));
+    }
+    report_.machine = report::this_machine();
+    report_.command = options_.command;
+    return {};
+}
+
+void ReportRun::tell(double done, const std::string& what) {
+    if (options_.quiet) return;
+    const auto now = Clock::now();
+    if (done < 1.0 && now - last_told_ < std::chrono::milliseconds(200)) return;
+    last_told_ = now;
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const double own = done - taken_over_;
+    const std::string left =
+        own > 0.01 ? fmt::format("{} left", minutes(seconds / own * (1.0 - done))) : "…";
+    fmt::print(stderr, "\r{:3.0f} %, {}: {}\x1b[K", done * 100.0, left, one_line(what));
+    if (done >= 1.0) fmt::print(stderr, "\r\x1b[K");
+    std::fflush(stderr);
+}
+
+Status ReportRun::measure_one(const Wanted& wanted, gpu::Device& device, double begins,
+                              double share) {
+    auto subject = load_subject(wanted, report_.options);
+    if (!subject) return forward_error(subject);
+    const std::string key =
+        report::cell_key(*subject, report_.options, device.caps().backend, device.caps().adapter);
+    const fs::path kept = options_.out / "cells" / (key + ".json");
+    std::error_code error;
+    if (fs::is_regular_file(kept, error)) {
+        // One that cannot be read is measured again.
+        if (auto cell = report::cell_from_json(text_of(kept))) {
+            report_.cells.push_back(std::move(*cell));
+            taken_over_ += share;
+            return {};
+        }
+    }
+    auto cell =
+        report::measure(device, *subject, report_.options, [&](const report::Progress& progress) {
+            tell(begins + share * progress.done,
+                 fmt::format("{} on {}: {}", wanted.name, device.caps().backend, progress.what));
+        });
+    if (!cell) return forward_error(cell);
+    OutputFiles file;
+    if (const Status added = file.add(kept, report::cell_to_json(*cell)); !added) return added;
+    report_.cells.push_back(std::move(*cell));
+    if (const Status kept_now = file.commit(); !kept_now) return kept_now;
+    return write_tables();
+}
+
+Status ReportRun::measure_all() {
+    const double share = 1.0 / static_cast<double>(scenes_.size() * devices_.size());
+    double begins = 0.0;
+    for (const Wanted& wanted : scenes_) {
+        for (auto& [name, device] : devices_) {
+            if (const Status done = measure_one(wanted, device, begins, share); !done) return done;
+            begins += share;
+        }
+    }
+    tell(1.0, "done");
+    return {};
+}
+
+// After each scene, so that an interrupted run leaves what it has.
+Status ReportRun::write_tables() {
+    OutputFiles files;
+    const fs::path json = options_.out / "report.json";
+    for (const auto& [path, text] :
+         {std::pair{json, report::to_json(report_)},
+          std::pair{options_.out / "report.csv", report::to_csv(report_)},
+          std::pair{options_.out / "report.html", report::to_html(report_)}}) {
+        if (const Status added = files.add(path, text); !added) return added;
+    }
+    return files.commit();
+}
+
+Status ReportRun::finish() {
+    if (const Status written = write_tables(); !written) return written;
+    const std::string note = draw_plots(options_.out / "report.json", options_.out / "plots");
+    if (!options_.quiet) {
+        if (!note.empty()) fmt::print(stderr, "{}\n", one_line(note));
+        fmt::print(stderr, "{}\n", (options_.out / "report.html").string());
+    }
+    return {};
+}
+
+}  // namespace
+
+Status run_report(const ReportOptions& options) {
+    ReportRun run(options);
+    if (const Status ready = run.prepare(); !ready) return ready;
+    if (const Status measured = run.measure_all(); !measured) return measured;
+    return run.finish();
+}
+
+}  // namespace gnomon::cli

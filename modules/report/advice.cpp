@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+//
+// What to use for which kind of place. Every sentence with a figure is made from the figures.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <gnomon/report/writers.hpp>
+
+#include "internal/page_parts.hpp"
+#include "internal/plot.hpp"
+
+namespace gnomon::report::internal {
+
+namespace {
+
+using Cells = std::vector<const Cell*>;
+
+// Shares of the judged pixels that few would see.
+constexpr double hardly_wrong = 1e-3;
+
+bool is_hardly_wrong_and_faster(const Row& row) {
+    return row.skipped.empty() && row.technique != "auto" &&
+           row.errors.wrong_share_worst <= hardly_wrong && row.against_auto.high < 0.95;
+}
+
+std::string whether_auto_is_right(const Cells& cells) {
+    std::size_t exact = 0;
+    for (const Cell* cell : cells) {
+        const Row* row = find_row(*cell, "auto");
+        if (row != nullptr && row->errors.wrong_worst == 0) ++exact;
+    }
+    if (exact < cells.size()) {
+        return fmt::format("It has wrong pixels in {} of {} measurements: see below.",
+                           cells.size() - exact, cells.size());
+    }
+    return "Not one wrong pixel in any frame.";
+}
+
+// Techniques that are as little wrong and faster: where, and why they are not the default.
+std::string rivals(const Cells& cells) {
+    struct Rival {
+        const Row* row = nullptr;
+        std::string where;
+    };
+    std::vector<Rival> found;
+    for (const Cell* cell : cells) {
+        for (const std::size_t i : better_than_auto(*cell)) {
+            const Row& row = cell->rows[i];
+            auto rival = std::ranges::find_if(
+                found, [&](const Rival& r) { return r.row->technique == row.technique; });
+            if (rival == found.end()) rival = found.insert(found.end(), {&row, {}});
+            rival->where +=
+                fmt::format("{}{:.2f} of its time in {}", rival->where.empty() ? "" : ", ",
+                            row.against_auto.mean, escaped(cell->scene));
+        }
+    }
+    if (found.empty()) return "Nothing was found that is faster by more than 5 %.";
+    std::string text;
+    for (const auto& [row, where] : found) {
+        text += fmt::format("{}<code>{}</code> ({}). {}", text.empty() ? "" : " ",
+                            escaped(row->technique), where, escaped(row->caveat));
+    }
+    return text;
+}
+
+// What is faster in every one of the measurements, and at most hardly wrong; the fastest of those.
+std::string cheaper(const Cells& cells) {
+    const Row* best = nullptr;
+    double best_ratio = 1.0;
+    double worst_share = 0.0;
+    for (const Row& candidate : cells.front()->rows) {
+        double logs = 0.0;
+        double share = 0.0;
+        const bool everywhere = std::ranges::all_of(cells, [&](const Cell* cell) {
+            const Row* row = find_row(*cell, candidate.technique);
+            if (row == nullptr || !is_hardly_wrong_and_faster(*row)) return false;
+            logs += std::log(row->against_auto.mean);
+            share = std::max(share, row->errors.wrong_share_worst);
+            return true;
+        });
+        const double ratio = std::exp(logs / static_cast<double>(cells.size()));
+        if (!everywhere || ratio >= best_ratio) continue;
+        best = &candidate;
+        best_ratio = ratio;
+        worst_share = share;
+    }
+    if (best == nullptr) {
+        return "Nothing that is wrong in at most 1 pixel of 1,000 is faster in each of these "
+               "scenes.";
+    }
+    return fmt::format(
+        "<code>{}</code> takes {:.0f} % of its time and gets at most {} of the "
+        "pixels wrong. {}",
+        escaped(best->technique), best_ratio * 100.0, percent(worst_share), escaped(best->summary));
+}
+
+std::string maps_instead(const Cells& cells) {
+    double fewest = 1e300;
+    double most = 0.0;
+    double least_times = 1e300;
+    double most_times = 0.0;
+    for (const Cell* cell : cells) {
+        const Row* map = least_wrong(*cell, "shadow maps");
+        if (map == nullptr) continue;
+        fewest = std::min(fewest, static_cast<double>(map->errors.wrong_worst));
+        most = std::max(most, static_cast<double>(map->errors.wrong_worst));
+        least_times = std::min(least_times, map->against_auto.mean);
+        most_times = std::max(most_times, map->against_auto.mean);
+    }
+    if (most_times == 0.0) return {};
+    const auto range = [](double a, double b, auto&& text) {
+        return text(a) == text(b) ? text(a) : text(a) + " to " + text(b);
+    };
+    return fmt::format(
+        "<li><b>Shadow maps instead?</b> The least wrong map gets {} pixels wrong and takes "
+        "{} times as long here.</li>\n",
+        range(fewest, most, [](double v) { return with_commas(static_cast<std::uint64_t>(v)); }),
+        range(least_times, most_times, [](double v) { return fmt::format("{:.2g}", v); }));
+}
+
+std::string line(const Cell& cell, const Row& row) {
+    return fmt::format("<tr><td>{}{}</td><td>{}</td><td class=\"{}\">{}</td><td>{}</td></tr>\n",
+                       marker_svg(row.family), escaped(row.technique),
+                       three_digits(comparable_ms(cell, row)),
+                       row.errors.wrong_worst == 0 ? "good" : "bad",
+                       with_commas(row.errors.wrong_worst), percent(row.errors.wrong_share_worst));
+}
+
+// The rivals of a scene, one a family.
+std::string short_table(const Cell& cell) {
+    std::vector<const Row*> rows;
+    const auto add = [&](const Row* row) {
+        if (row != nullptr && std::ranges::find(rows, row) == rows.end()) rows.push_back(row);
+    };
+    add(find_row(cell, "auto"));
+    const Row* quickest = nullptr;
+    const Row* quickest_map = nullptr;
+    for (const Row& row : cell.rows) {
+        if (!row.skipped.empty()) continue;
+        const auto is_faster = [&](const Row* than) {
+            return than == nullptr || comparable_ms(cell, row) < comparable_ms(cell, *than);
+        };
+        if (row.family == "approximate" && row.errors.wrong_share_worst <= hardly_wrong &&
+            is_faster(quickest)) {
+            quickest = &row;
+        }
+        if (row.family == "shadow maps" && is_faster(quickest_map)) quickest_map = &row;
+    }
+    add(quickest);
+    add(quickest_map);
+    add(least_wrong(cell, "shadow maps"));
+    add(find_row(cell, "planar"));
+    add(find_row(cell, "ray casting"));
+    std::string text =
+        "<table><tr><th>technique</th><th>ms</th><th>wrong<br>pixels</th><th>of "
+        "all</th></tr>\n";
+    for (const Row* row : rows) text += line(cell, *row);
+    return text + "</table>\n";
+}
+
+std::string pictures(const Cell& cell) {
+    std::string text = "<div class=\"pair\">";
+    text += fmt::format("<figure>{}<figcaption>the true shadows</figcaption></figure>",
+                        image_html(cell.truth, "true shadows in " + cell.scene));
+    const Row* map = least_wrong(cell, "shadow maps");
+    if (map != nullptr && map->errors.wrong_worst > 0) {
+        text += fmt::format(
+            "<figure>{}<figcaption>where <code>{}</code> is wrong</figcaption>"
+            "</figure>",
+            image_html(map->difference, "errors of " + map->technique), escaped(map->technique));
+    }
+    return text + "</div>\n";
+}
+
+struct Place {
+    Kind kind;
+    const char* title;
+    const char* words;
+};
+constexpr Place places[] = {
+    {Kind::Indoor, "An indoor game",
+     "Lamps stand among the things they light, so that shadows fall in all directions and the "
+     "camera stands in them. A shadow map may need up to six pictures a lamp."},
+    {Kind::Outdoor, "A city in the sun",
+     "One light, very far away, and many casters over a wide ground. A shadow map has to cover all "
+     "that is seen of it."},
+    {Kind::Hero, "A single hero object",
+     "One caster that the camera looks at closely, where a jagged edge is what everybody sees."},
+    {Kind::Other, "Other scenes", "Whatever else was measured."}};
+
+std::string card(const Place& place, const Cells& cells) {
+    std::string text = fmt::format("<div class=\"card\"><h3>{}</h3><p class=\"small\">{}</p>\n",
+                                   place.title, place.words);
+    text += fmt::format("<p class=\"verdict\">Use <code>auto</code>, gnomon’s default. {}</p>\n",
+                        whether_auto_is_right(cells));
+    text += fmt::format(
+        "<ul><li><b>As right, and faster?</b> {}</li>\n"
+        "<li><b>Cheaper, and a little wrong?</b> {}</li>\n{}</ul>\n",
+        rivals(cells), cheaper(cells), maps_instead(cells));
+    std::set<std::string> shown;
+    for (const Cell* cell : cells) {
+        if (!shown.insert(cell->scene).second) continue;  // on another backend
+        text +=
+            fmt::format("<h4>{} <span class=\"small\">({})</span></h4>\n{}{}", escaped(cell->scene),
+                        escaped(cell->backend), pictures(*cell), short_table(*cell));
+    }
+    return text + "</div>\n";
+}
+
+}  // namespace
+
+bool draws_in_software(std::string_view adapter) {
+    std::string lower;
+    for (const char c : adapter) {
+        lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    for (const char* name : {"llvmpipe", "softpipe", "swiftshader", "lavapipe", "swrast"}) {
+        if (lower.find(name) != std::string::npos) return true;
+    }
+    return false;
+}
+
+std::string advice_html(const Report& report) {
+    std::string text = "<h2>What to use</h2>\n";
+    const bool software = std::ranges::any_of(
+        report.cells, [](const Cell& cell) { return draws_in_software(cell.adapter); });
+    text += fmt::format(
+        "<p class=\"small\">Milliseconds are those of this machine{}; on another one, measure "
+        "again, by one command. Errors hardly depend on the machine.</p>\n",
+        software ? ", where no graphics chip but a program on the processor draws. It fills pixels "
+                   "slowly, so that large shadow maps look dearer than they are on a graphics chip"
+                 : "");
+    text += "<div class=\"cards\">\n";
+    for (const Place& place : places) {
+        Cells cells;
+        for (const Cell& cell : report.cells) {
+            if (cell.kind == place.kind) cells.push_back(&cell);
+        }
+        if (!cells.empty()) text += card(place, cells);
+    }
+    return text + "</div>\n";
+}
+
+}  // namespace gnomon::report::internal

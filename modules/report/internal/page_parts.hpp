@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// Parts of the page, as HTML.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <gnomon/report/report.hpp>
+
+namespace gnomon::report::internal {
+
+/// What to use for which kind of place: the answer, with its figures and pictures.
+[[nodiscard]] std::string advice_html(const Report& report);
+/// A scene on a backend: its plot, its table, its pictures.
+[[nodiscard]] std::string cell_html(const Cell& cell);
+
+/// Empty where the technique was not measured.
+[[nodiscard]] const Row* find_row(const Cell& cell, std::string_view technique);
+/// The family's least wrong, of equals the faster; null where there is none.
+[[nodiscard]] const Row* least_wrong(const Cell& cell, std::string_view family);
+[[nodiscard]] std::string image_html(const Thumbnail& thumbnail, std::string_view alt);
+/// 0.012 %.
+[[nodiscard]] std::string percent(double share);
+/// 1.23 [1.20, 1.26].
+[[nodiscard]] std::string ratio_text(const Ratio& ratio);
+/// A program on the processor draws, as far as its name tells.
+[[nodiscard]] bool draws_in_software(std::string_view adapter);
+
+}  // namespace gnomon::report::internal

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+//
+// gnomon report as a user runs it: files, resumption, refusals.
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+namespace gnomon::cli::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class ReportCommand : public ProgramTest {
+protected:
+    static Arguments small(const Arguments& more = {}) {
+        return joined({"report", "builtin:knot", "--quick", "--quiet", "--size", "96x54",
+                       "--rounds", "1", "--technique", "shadow map, sloped 512", "--out", "r"},
+                      more);
+    }
+    [[nodiscard]] bool draws_at_all() const { return draws("gl") || draws("vk"); }
+    [[nodiscard]] std::vector<std::filesystem::path> kept() const {
+        std::vector<std::filesystem::path> paths;
+        for (const auto& entry : std::filesystem::directory_iterator(path("r/cells"))) {
+            paths.push_back(entry.path());
+        }
+        return paths;
+    }
+};
+
+TEST_F(ReportCommand, WritesAPageTablesAndData) {
+    if (!draws_at_all()) GTEST_SKIP() << "no backend draws here";
+    run_well(small());
+    const std::string page = read("r/report.html");
+    EXPECT_THAT(page, HasSubstr("<svg"));
+    EXPECT_THAT(page, HasSubstr("shadow map, sloped 512"));
+    const auto json = nlohmann::json::parse(read("r/report.json"));
+    const auto& rows = json.at("cells").at(0).at("rows");
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].at("technique"), "auto");
+    EXPECT_EQ(rows[0].at("errors").at("wrong_worst"), 0);
+    EXPECT_GT(rows[1].at("errors").at("wrong_at_all_worst"), 0);
+    EXPECT_THAT(json.at("command"), HasSubstr("'shadow map, sloped 512'"));
+    EXPECT_THAT(read("r/report.csv"), HasSubstr("knot,hero,"));
+}
+
+TEST_F(ReportCommand, ARepeatedRunMeasuresNothingAndAnInterruptedOneGoesOn) {
+    if (!draws_at_all()) GTEST_SKIP() << "no backend draws here";
+    run_well(small({"builtin:pillars"}));
+    const std::string csv = read("r/report.csv");  // times and all
+    ASSERT_EQ(kept().size(), 2U);
+    run_well(small({"builtin:pillars"}));
+    EXPECT_EQ(read("r/report.csv"), csv);
+
+    // As if it had been stopped within the second scene, or while it wrote the first.
+    for (const auto& path : kept()) {
+        std::filesystem::resize_file(path, 100);
+        break;
+    }
+    run_well(small({"builtin:pillars"}));
+    const std::string again = read("r/report.csv");
+    EXPECT_NE(again, csv);
+    std::size_t same = 0;  // lines of the scene that was kept
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);) {
+        if (again.find(line + "\n") != std::string::npos) ++same;
+    }
+    EXPECT_GE(same, 3U);  // the head, and two techniques
+
+    // Other arguments are another measurement.
+    run_well(small({"builtin:pillars", "--technique", "planar"}));
+    EXPECT_EQ(kept().size(), 4U);
+}
+
+TEST_F(ReportCommand, ListsTechniques) {
+    const std::string list = run_well({"report", "--list-techniques"}).output;
+    EXPECT_THAT(list, testing::StartsWith("auto\n"));
+    EXPECT_THAT(list, HasSubstr("\nshadow map, 3x3 4096\n"));
+    EXPECT_THAT(list, HasSubstr("\nplanar\n"));
+}
+
+TEST_F(ReportCommand, RefusesInOneSentence) {
+    expect_refused({"report", "--backend", "dx"}, {"dx", "gl"});
+    expect_refused({"report", "--backend", "gl,gl"}, {"\"gl\"", "twice"});
+    expect_refused({"report", "--technique", "magic"}, {"magic", "--list-techniques"});
+    expect_refused({"report", "--rounds", "0"}, {"rounds"});
+    expect_refused({"report", "--frames", "1"}, {"frames"});
+    expect_refused({"report", "--size", "12"}, {"size", "12"});
+    expect_refused({"report", "--out", ""}, {"--out", "empty"});
+    expect_refused({"report", "missing.glb"}, {"missing.glb"});
+    expect_refused({"report", "builtin:nowhere"}, {"nowhere"});
+    expect_refused({"report", "--backend", "null", "builtin:knot"}, {"null", "judged"});
+    write("file", "in the way");
+    expect_refused({"report", "--out", "file", "builtin:knot"}, {"file"});
+}
+
+}  // namespace
+}  // namespace gnomon::cli::test

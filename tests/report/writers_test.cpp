@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+//
+// What a report is written as: figures arrive, names are escaped, nothing is fetched from outside.
+#include <gnomon/report/writers.hpp>
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gnomon::report {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+Row row(const std::string& technique, double ms, std::uint64_t wrong) {
+    Row row;
+    row.technique = technique;
+    row.family = "volumes";
+    row.summary = "What it does.";
+    row.frame_ms = {ms, ms * 1.5, ms * 0.9, ms * 2.0};
+    row.against_auto = {ms / 2.0, ms / 2.0, ms / 2.0};  // "auto" takes 2 ms
+    row.errors.wrong_worst = wrong;
+    row.errors.wrong_share_worst = static_cast<double>(wrong) / 1000.0;
+    row.mask = {1, 1, {std::byte{1}, std::byte{2}}};
+    row.difference = {1, 1, {std::byte{3}}};
+    return row;
+}
+
+Cell cell() {
+    Cell cell;
+    cell.scene = "a <b> & \"c\", d";
+    cell.source = "builtin:knot";
+    cell.kind = Kind::Hero;
+    cell.backend = "gl";
+    cell.adapter = "soft, and \"slow\"";
+    cell.triangles = 12345;
+    cell.lights = 1;
+    cell.rounds = 3;
+    cell.truth = {2, 1, {std::byte{9}}};
+    cell.notes = {"A <note>."};
+    cell.rows = {row("auto", 2.0, 0), row("slower", 3.0, 0), row("quick & wrong", 1.0, 70),
+                 row("equal", 2.0, 0), row("worse", 2.5, 70)};
+    cell.rows[2].errors.edge_displacement_px = std::numeric_limits<double>::infinity();
+    cell.rows[1].against_auto = {1.5, 1.4, std::numeric_limits<double>::infinity()};
+    Row skipped;
+    skipped.technique = "not here";
+    skipped.family = "rays";
+    skipped.skipped = "It is <missing>.";
+    cell.rows.push_back(skipped);
+    return cell;
+}
+
+Report report() {
+    Report report;
+    report.options.version = "1.2.3";
+    report.machine = {"A <processor>", 2, "A system"};
+    report.command = "gnomon report --quick";
+    report.cells = {cell()};
+    return report;
+}
+
+TEST(Pareto, NothingOnTheFrontIsBeaten) { EXPECT_THAT(pareto_front(cell()), ElementsAre(2U, 0U)); }
+
+TEST(BetterThanAuto, TakesTheWholeIntervalAndNoMoreErrors) {
+    Cell c = cell();
+    EXPECT_THAT(better_than_auto(c), IsEmpty());
+    EXPECT_DOUBLE_EQ(comparable_ms(c, c.rows[4]), 2.5);
+    c.rows[3].against_auto = {0.9, 0.86, 0.94};
+    EXPECT_THAT(better_than_auto(c), ElementsAre(3U));
+    c.rows[3].against_auto.high = 0.96;  // less than 5 % for all that is known
+    EXPECT_THAT(better_than_auto(c), IsEmpty());
+    c.rows[2].against_auto = {0.5, 0.5, 0.5};  // but wrong
+    EXPECT_THAT(better_than_auto(c), IsEmpty());
+}
+
+TEST(Csv, QuotesWhatNeedsIt) {
+    const std::string csv = to_csv(report());
+    EXPECT_THAT(csv,
+                HasSubstr("\"a <b> & \"\"c\"\", d\",hero,gl,\"soft, and \"\"slow\"\"\",auto,"));
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+    // As many columns in a line as in the head, for what was skipped too.
+    const auto columns = [&](std::size_t line) {
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < line; ++i) begin = csv.find('\n', begin) + 1;
+        bool quoted = false;
+        std::size_t count = 1;
+        for (std::size_t i = begin; csv[i] != '\n'; ++i) {
+            if (csv[i] == '"') quoted = !quoted;
+            if (csv[i] == ',' && !quoted) ++count;
+        }
+        return count;
+    };
+    EXPECT_EQ(columns(1), columns(0));
+    EXPECT_EQ(columns(6), columns(0));
+}
+
+TEST(Json, HasTheFigures) {
+    const auto json = nlohmann::json::parse(to_json(report()));
+    EXPECT_EQ(json.at("version"), "1.2.3");
+    const auto& rows = json.at("cells").at(0).at("rows");
+    EXPECT_EQ(rows.at(0).at("frame_ms").at("median"), 2.0);
+    EXPECT_EQ(rows.at(2).at("errors").at("wrong_worst"), 70);
+    EXPECT_TRUE(rows.at(2).at("errors").at("edge_displacement_px").is_null());
+    EXPECT_EQ(rows.at(5).at("skipped"), "It is <missing>.");
+    EXPECT_FALSE(rows.at(0).contains("mask"));
+}
+
+TEST(Html, NeedsNothingElseAndEscapes) {
+    const std::string page = to_html(report());
+    for (const char* forbidden : {"<script", "http://", "https://", "<link", "<b> &", "<missing>",
+                                  "<note>", "<processor>"}) {
+        EXPECT_THAT(page, Not(HasSubstr(forbidden))) << forbidden;
+    }
+    for (const char* there : {"a &lt;b&gt; &amp; &quot;c&quot;, d", "It is &lt;missing&gt;.",
+                              "data:image/png;base64,AQI=", "quick &amp; wrong",
+                              "gnomon report --quick", "<svg", "</html>"}) {
+        EXPECT_THAT(page, HasSubstr(there)) << there;
+    }
+}
+
+TEST(Kept, ComesBackAsItWas) {
+    const std::string text = cell_to_json(cell());
+    const auto back = cell_from_json(text);
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(cell_to_json(*back), text);
+    EXPECT_EQ(back->kind, Kind::Hero);
+    EXPECT_EQ(back->rows[0].mask.png, cell().rows[0].mask.png);
+    EXPECT_TRUE(std::isinf(back->rows[2].errors.edge_displacement_px));
+    EXPECT_TRUE(std::isinf(back->rows[1].against_auto.high));
+}
+
+TEST(Kept, WhatIsBrokenIsRefused) {
+    const std::string text = cell_to_json(cell());
+    for (const std::string& broken :
+         {std::string("{"), std::string("[]"), std::string(), text.substr(0, text.size() / 2)}) {
+        const auto back = cell_from_json(broken);
+        ASSERT_FALSE(back);
+        EXPECT_EQ(back.error().code, ErrorCode::InvalidInput);
+        EXPECT_THAT(back.error().message, HasSubstr("no kept part of a report"));
+    }
+}
+
+}  // namespace
+}  // namespace gnomon::report
