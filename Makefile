@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test soak bench peers savings docs install format tidy clean FORCE
+.PHONY: help setup build demo test soak bench peers savings report docs install format tidy clean FORCE
 
 help: ## this list
 	@echo "gnomon: exact hard shadows. Targets:"
@@ -75,6 +75,10 @@ peers: build/build.ninja ## compare with OGRE's and Irrlicht's shadows, and writ
 savings: build ## measure what each saving of fill saves, and write bench/results/savings.json and its table
 	@bench/savings/gnomon-savings --program build/bin/gnomon --models ../shared/models --out bench/results/savings.json
 	@scripts/performance-tables --savings bench/results/savings.json --document docs/performance.md
+
+report: build ## speed against error of every technique: build/report/report.html and the tables of docs/speed-and-error.md
+	@build/bin/gnomon report --out build/report $(REPORT_OPTIONS)
+	@scripts/report-tables build/report/report.json --document docs/speed-and-error.md
 
 docs: ## the reference of all public headers and the guides, in build/docs/html
 	@scripts/setup --docs
