@@ -119,10 +119,10 @@ Reach reach_of(const ShadowHull& hull, const ReceiverTree* receivers, const Fill
 double plane_distance(const Reach& reach, const glm::dvec3& eye) {
     // Receivers may lie on the plane itself. A rasteriser moves vertices by up to 1/512 of a pixel,
     // theirs and the far vertices: k pixels below the plane's horizon its depth is known to
-    // 1/(256 k) of its distance from the eye. So much for one pixel; and more than single
-    // precision rounds away.
+    // 1/(256 k) of its distance from the eye. So much for 16 pixels: nearer to its horizon
+    // little is seen of it, and more costs fill.
     const double from_eye = std::abs(reach.distance - glm::dot(reach.normal, eye));
-    return reach.distance + reach.margin + from_eye / 256.0;
+    return reach.distance + reach.margin + from_eye / 4096.0;
 }
 
 glm::dvec4 plane_in(const glm::dmat4& world_from_local, const glm::dvec3& normal, double distance) {
