@@ -14,7 +14,8 @@
 //  2. Each such piece sends a beam to the light. If no caster enters it, the piece is lit. If
 //     triangles that join along shared edges fill it without a boundary, it is in shadow. Else its
 //     answer changes somewhere inside.
-//  3. If all the pieces say the same, that is the verdict.
+//  3. If all the pieces say the same, that is the verdict; but not where an edge that a volume begins
+//     at enters the beam, for there a shadow's boundary passes too, whatever else lies over it.
 //
 // All of it in double precision. Where single precision must fail, the pixel is in the band as
 // well: a caster so near the surface that no depth buffer tells on which side of it it lies, a

@@ -5,10 +5,12 @@
 // oracle's code, so that the two can be held against each other.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -125,6 +127,17 @@ struct Pinhole {
         const double y = (1.0 - 2.0 * pixels.y / height) * half;
         return {eye, forward + x * right + y * up};
     }
+    /// The other way round: pixels, and metres ahead of the eye; z <= 0 for what is not ahead.
+    [[nodiscard]] glm::dvec3 place_of(const glm::dvec3& point) const {
+        const glm::dvec3 forward = glm::normalize(target - eye);
+        const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0)));
+        const glm::dvec3 up = glm::cross(right, forward);
+        const double half = std::tan(fovy_rad / 2.0);
+        const double ahead = glm::dot(point - eye, forward);
+        const double x = glm::dot(point - eye, right) / (ahead * half * aspect());
+        const double y = glm::dot(point - eye, up) / (ahead * half);
+        return {(x + 1.0) / 2.0 * width, (1.0 - y) / 2.0 * height, ahead};
+    }
 };
 
 /// Calls check(x, y, verdict, ray through the centre) for every pixel that is lit or shadowed.
@@ -152,6 +165,7 @@ public:
                     face.corners[k] = glm::dvec3(shape.pose * glm::dvec4(p, 1.0));
                 }
                 faces_.push_back(face);
+                if (face.casts) add_edges(faces_.size() - 1);
             }
         }
     }
@@ -185,13 +199,62 @@ public:
         return Verdict::Lit;
     }
 
+    /// Whether an edge that a volume begins at is seen so near to a place of the picture.
+    [[nodiscard]] bool has_silhouette(const Pinhole& camera, const shadows::Light& light,
+                                      const glm::dvec2& place, double radius_px) const {
+        for (const auto& [edge, faces] : edges_) {
+            int count = 0;
+            for (const auto& [face, direction] : faces) {
+                const auto& c = faces_[face].corners;
+                const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+                const glm::dvec3 to_light =
+                    glm::dvec3(light.position_world) - light.position_world.w * c[0];
+                count += glm::dot(normal, to_light) > 0.0 ? direction : -direction;
+            }
+            if (count == 0) continue;
+            const glm::dvec3 a(edge[0], edge[1], edge[2]);
+            const glm::dvec3 b(edge[3], edge[4], edge[5]);
+            const glm::dvec3 from = camera.place_of(a);
+            const glm::dvec3 to = camera.place_of(b);
+            if (from.z <= 0.0 || to.z <= 0.0) continue;
+            const glm::dvec2 way(to - from);
+            const double t = std::clamp(
+                glm::dot(place - glm::dvec2(from), way) / std::max(glm::dot(way, way), 1e-300), 0.0,
+                1.0);
+            if (glm::length(glm::dvec2(from) + t * way - place) > radius_px) continue;
+            const double far = (t / to.z) / ((1.0 - t) / from.z + t / to.z);
+            if (is_seen({camera.eye, glm::mix(a, b, far) - camera.eye})) return true;
+        }
+        return false;
+    }
+
 private:
     struct Face {
         std::array<glm::dvec3, 3> corners;
         bool casts;
         bool receives;
     };
+    using Edge = std::array<double, 6>;
     std::vector<Face> faces_;
+    std::map<Edge, std::vector<std::pair<std::size_t, int>>> edges_;  // of those that cast
+
+    void add_edges(std::size_t face) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec3& a = faces_[face].corners[k];
+            const glm::dvec3& b = faces_[face].corners[(k + 1) % 3];
+            const Edge there{a.x, a.y, a.z, b.x, b.y, b.z};
+            const Edge back{b.x, b.y, b.z, a.x, a.y, a.z};
+            edges_[std::min(there, back)].emplace_back(face, there < back ? 1 : -1);
+        }
+    }
+
+    // The end of a ray.
+    [[nodiscard]] bool is_seen(const Ray& ray) const {
+        return std::ranges::none_of(faces_, [&](const Face& face) {
+            const std::optional<double> t = face.receives ? hit(face, ray) : std::nullopt;
+            return t && *t > 0.0 && *t < 1.0 - 1e-9;
+        });
+    }
 
     // By three signed volumes, not by Möller and Trumbore.
     static std::optional<double> hit(const Face& face, const Ray& ray) {

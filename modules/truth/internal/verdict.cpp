@@ -183,8 +183,9 @@ PixelJudge::Answer PixelJudge::light_reaches(const Seen& seen, const Plane& base
     return find_covers(tiles_, cover_of_) > 0 ? Answer::Shadowed : Answer::Uncertain;
 }
 
-/// A volume begins at this edge: on which side of it a pixel falls is up to the rasteriser's grid,
-/// even where both sides are lit (the rim of a sheet, seen against lit ground).
+/// A volume begins at this edge: on which side of it a pixel falls is up to the rasteriser's grid.
+/// So is then whether one layer of it counts, or is missing: even where both sides are lit (the rim
+/// of a sheet, seen against lit ground) or both are in another caster's shadow, of one layer too.
 bool PixelJudge::has_silhouette_inside(const Seen& seen) const {
     const Triangle& t = triangle(seen.triangle);
     if (!t.casts) return false;
@@ -207,14 +208,15 @@ Verdict PixelJudge::verdict(Beam pixel) {
     for (const Seen& seen : seen_) {
         if (is_hidden(seen)) continue;
         Verdict one = Verdict::Unjudged;
-        switch (answer(seen)) {
+        const Answer found = answer(seen);
+        switch (found) {
             case Answer::OutOfRange:
             case Answer::Averted: break;
             case Answer::Lit:
+            case Answer::Shadowed:
                 if (has_silhouette_inside(seen)) return Verdict::Band;
-                one = Verdict::Lit;
+                one = found == Answer::Lit ? Verdict::Lit : Verdict::Shadowed;
                 break;
-            case Answer::Shadowed: one = Verdict::Shadowed; break;
             case Answer::Uncertain: return Verdict::Band;
         }
         if (!first && one != all) return Verdict::Band;
