@@ -24,7 +24,6 @@ constexpr std::string_view not_traced = "edges and grazing faces; not explained 
 
 constexpr std::array limits{
     KnownLimit{"29_four_samples_wall_of_bricks", two_pass, 1, lost_sliver},
-    KnownLimit{"34_wall_of_1000_bricks", two_pass, 1, lost_sliver},
 
     KnownLimit{"01_light_in_the_plane_of_1000_needles", swiftshader, 60, not_traced},
     KnownLimit{"04_1000_closed_faces_on_one_edge", swiftshader, 5, not_traced},

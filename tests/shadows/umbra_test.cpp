@@ -23,8 +23,8 @@ using test::Random;
 
 // Whole components.
 std::size_t parts_of(const test::Triangles& triangles) {
-    const auto& parts = convex_parts(*test::build(triangles));
-    return static_cast<std::size_t>(std::ranges::count_if(parts, &ConvexPart::whole));
+    const auto mesh = test::build(triangles);
+    return static_cast<std::size_t>(std::ranges::count_if(convex_parts(*mesh), &ConvexPart::whole));
 }
 
 test::Triangles tetrahedron() {
