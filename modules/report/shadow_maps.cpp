@@ -294,15 +294,7 @@ Result<FrameCost> ShadowMap::frame(const Moment& moment, bool /*look*/) {
     for (std::size_t light = 0; light < lights_.size(); ++light) {
         record(encoder, *depth, instances, light);
     }
-    auto commands = encoder.finish();
-    if (!commands) return forward_error(commands);
-    FrameCost cost;
-    cost.record_ms = milliseconds_since(start);
-    if (const Status done = device.submit(*commands); !done) return forward_error(done);
-    if (const Status idle = device.wait_idle(); !idle) return forward_error(idle);
-    cost.frame_ms = milliseconds_since(start);
-    cost.upload_bytes = device.counters().uploaded_bytes - uploaded;
-    return cost;
+    return draw_and_wait(device, encoder, start, uploaded);
 }
 
 }  // namespace

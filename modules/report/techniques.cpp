@@ -181,6 +181,19 @@ std::vector<Entry> all_techniques() {
     return std::move(table.entries);
 }
 
+Result<FrameCost> draw_and_wait(gpu::Device& device, gpu::CommandEncoder& encoder,
+                                Clock::time_point start, std::uint64_t uploaded) {
+    auto commands = encoder.finish();
+    if (!commands) return forward_error(commands);
+    FrameCost cost;
+    cost.record_ms = milliseconds_since(start);
+    if (const Status done = device.submit(*commands); !done) return forward_error(done);
+    if (const Status idle = device.wait_idle(); !idle) return forward_error(idle);
+    cost.frame_ms = milliseconds_since(start);
+    cost.upload_bytes = device.counters().uploaded_bytes - uploaded;
+    return cost;
+}
+
 }  // namespace gnomon::report::internal
 
 namespace gnomon::report {

@@ -30,6 +30,10 @@ struct FrameCost {
     std::uint64_t layers = 0;  ///< most of either sign, where it is asked for
 };
 
+/// Ends a frame that began at `start`, when the device had been given `uploaded` bytes.
+[[nodiscard]] Result<FrameCost> draw_and_wait(gpu::Device& device, gpu::CommandEncoder& encoder,
+                                              Clock::time_point start, std::uint64_t uploaded);
+
 /// One byte a pixel, 0 where lit; one mask a light, in the order of Moment::lights.
 using Masks = std::vector<std::vector<std::uint8_t>>;
 
