@@ -62,8 +62,7 @@ bool gather(const ShadowMesh& mesh, const std::vector<std::uint32_t>& faces, Con
         }
     }
     std::ranges::sort(vertices);
-    const auto repeated = std::ranges::unique(vertices);
-    vertices.erase(repeated.begin(), repeated.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     const auto place = [&](std::uint32_t& vertex) {
         vertex = static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, vertex) -
                                             vertices.begin());
