@@ -32,18 +32,8 @@ Result<gpu::Device> create_gl(const DeviceRequest& request) {
     if (request.gl_stencil == "two-side") options.stencil_path = gl::StencilPath::TwoSide;
     if (request.gl_stencil == "separate") options.stencil_path = gl::StencilPath::Separate;
     if (request.gl_stencil == "two-pass") options.stencil_path = gl::StencilPath::TwoPass;
-    // OSMesa first: it is there without any display or driver set-up. EGL where Mesa no longer
-    // ships it.
-    auto context = gl::create_osmesa_context();
-    if (!context) {
-        auto egl = gl::create_egl_context();
-        if (!egl) {
-            return fail(ErrorCode::Unsupported,
-                        fmt::format("No OpenGL context: {} {}", context.error().message,
-                                    egl.error().message));
-        }
-        context = std::move(egl);
-    }
+    auto context = gl::create_headless_context();
+    if (!context) return forward_error(context);
     return device_of(gl::create_backend(std::move(*context), options));
 }
 #endif

@@ -4,10 +4,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include "internal/debug_output.hpp"
 
 namespace gnomon::gl {
+namespace {
+
+// The buffer at GL_COPY_WRITE_BUFFER. Not by glClearBufferData: NVIDIA's driver (580.159) lets it
+// overtake a large write that follows at once, and what was written is zero then.
+void fill_with_zeros(const GlFunctions& gl, std::uint64_t size) {
+    static constexpr std::array<std::byte, 65536> zeros{};
+    for (std::uint64_t offset = 0; offset < size; offset += zeros.size()) {
+        gl.BufferSubData(
+            GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset),
+            static_cast<GLsizeiptr>(std::min<std::uint64_t>(zeros.size(), size - offset)),
+            zeros.data());
+    }
+}
+
+}  // namespace
 
 Result<BufferObject> make_buffer(const Adapter& adapter, const gpu::BufferDesc& desc) {
     const GlFunctions& gl = adapter.gl;
@@ -22,7 +39,7 @@ Result<BufferObject> make_buffer(const Adapter& adapter, const gpu::BufferDesc& 
         gl.DeleteBuffers(1, &buffer.name);
         return forward_error(made);
     }
-    gl.ClearBufferData(GL_COPY_WRITE_BUFFER, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
+    fill_with_zeros(gl, desc.size);
     if (adapter.debug) set_label(gl, GL_BUFFER, buffer.name, desc.label);
     return buffer;
 }

@@ -43,8 +43,13 @@ public:
 [[nodiscard]] Result<std::unique_ptr<Context>> create_osmesa_context();
 
 /// EGL without any surface: works on a GPU without a display, and where Mesa no longer ships
-/// OSMesa.
+/// OSMesa. The first device that EGL lists and that is no software, else Mesa's surfaceless
+/// platform, else any device.
 [[nodiscard]] Result<std::unique_ptr<Context>> create_egl_context();
+
+/// The best there is without a window: EGL's where EGL lists a device of hardware, else OSMesa's
+/// (it is there without any set-up, and has all three stencil paths), else EGL's on software.
+[[nodiscard]] Result<std::unique_ptr<Context>> create_headless_context();
 
 /// The context of a GLFW window that the host made and keeps alive. Only in gnomon::gl_glfw.
 [[nodiscard]] Result<std::unique_ptr<Context>> create_glfw_context(GLFWwindow* window);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// EGL without a surface: first Mesa's surfaceless platform, else the first device that EGL lists.
-// The declarations are repeated here so that EGL's headers are not needed to build.
+// EGL without a surface: on the first device that is no software, else on Mesa's surfaceless
+// platform, else on any device that EGL lists. The declarations are repeated here so that EGL's
+// headers are not needed to build.
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -55,6 +57,7 @@ struct EglFunctions {
     EglDisplay (*get_platform_display)(EglEnum platform, void* native,
                                        const EglInt* attributes) = nullptr;
     EglBoolean (*query_devices)(EglInt size, EglDevice*, EglInt* count) = nullptr;
+    const char* (*query_device_string)(EglDevice, EglInt name) = nullptr;
 };
 
 std::string error_code(const EglFunctions& egl) {
@@ -111,6 +114,8 @@ private:
     std::string description_;
 };
 
+enum class Renderers { Hardware, Any };
+
 struct OpenDisplay {
     EglDisplay display = nullptr;
     std::string description;
@@ -122,30 +127,56 @@ bool usable(const EglFunctions& egl, EglDisplay display) {
            lists(egl.query_string(display, egl_extensions), "EGL_KHR_surfaceless_context");
 }
 
-Result<OpenDisplay> open_display(const EglFunctions& egl, const char* client_extensions) {
+std::vector<EglDevice> list_devices(const EglFunctions& egl, const char* client_extensions) {
+    EglInt count = 0;
+    if (!lists(client_extensions, "EGL_EXT_platform_device") || egl.query_devices == nullptr ||
+        egl.query_devices(0, nullptr, &count) == 0) {
+        return {};
+    }
+    std::vector<EglDevice> devices(static_cast<std::size_t>(count));
+    if (egl.query_devices(count, devices.data(), &count) == 0) return {};
+    devices.resize(static_cast<std::size_t>(count));
+    return devices;
+}
+
+bool is_software(const EglFunctions& egl, EglDevice device) {
+    return egl.query_device_string != nullptr &&
+           lists(egl.query_device_string(device, egl_extensions), "EGL_MESA_device_software");
+}
+
+/// The first of the devices that can be used, of hardware or of software.
+EglDisplay display_of(const EglFunctions& egl, std::span<const EglDevice> devices, bool software) {
+    for (EglDevice device : devices) {
+        if (is_software(egl, device) != software) continue;
+        EglDisplay display = egl.get_platform_display(egl_platform_device_ext, device, nullptr);
+        if (usable(egl, display)) return display;
+    }
+    return nullptr;
+}
+
+Result<OpenDisplay> open_display(const EglFunctions& egl, const char* client_extensions,
+                                 Renderers renderers) {
+    const std::vector<EglDevice> devices = list_devices(egl, client_extensions);
+    if (EglDisplay display = display_of(egl, devices, false)) {
+        return OpenDisplay{display, "EGL device"};
+    }
+    if (renderers == Renderers::Hardware) {
+        return fail(ErrorCode::Unsupported, "EGL lists no device but software.");
+    }
     if (lists(client_extensions, "EGL_MESA_platform_surfaceless")) {
         EglDisplay display =
             egl.get_platform_display(egl_platform_surfaceless_mesa, nullptr, nullptr);
         if (usable(egl, display)) return OpenDisplay{display, "EGL surfaceless"};
     }
-    if (lists(client_extensions, "EGL_EXT_platform_device") && egl.query_devices != nullptr) {
-        EglInt count = 0;
-        egl.query_devices(0, nullptr, &count);
-        std::vector<EglDevice> devices(static_cast<std::size_t>(count));
-        egl.query_devices(count, devices.data(), &count);
-        for (EglDevice device : devices) {
-            EglDisplay display = egl.get_platform_display(egl_platform_device_ext, device, nullptr);
-            if (usable(egl, display)) return OpenDisplay{display, "EGL device"};
-        }
+    if (EglDisplay display = display_of(egl, devices, true)) {
+        return OpenDisplay{display, "EGL device"};
     }
     return fail(ErrorCode::Unsupported,
                 "EGL offers no display that works without a window: EGL_MESA_platform_surfaceless "
                 "or EGL_EXT_platform_device is needed, with EGL_KHR_surfaceless_context.");
 }
 
-}  // namespace
-
-Result<std::unique_ptr<Context>> create_egl_context() {
+Result<std::unique_ptr<Context>> create_context(Renderers renderers) {
     const auto library = SharedLibrary::open("libEGL.so.1", "an EGL context");
     if (!library) return forward_error(library);
 
@@ -176,7 +207,7 @@ Result<std::unique_ptr<Context>> create_egl_context() {
         return fail(ErrorCode::Unsupported, "EGL lacks eglGetPlatformDisplayEXT.");
     }
 
-    const auto display = open_display(egl, client_extensions);
+    const auto display = open_display(egl, client_extensions, renderers);
     if (!display) return forward_error(display);
     if (egl.bind_api(egl_opengl_api) == 0) {
         return fail(ErrorCode::Unsupported,
@@ -215,6 +246,20 @@ Result<std::unique_ptr<Context>> create_egl_context() {
         std::make_unique<EglContext>(egl, display->display, handle, display->description);
     if (const Status bound = context->make_current(); !bound) return forward_error(bound);
     return context;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Context>> create_egl_context() { return create_context(Renderers::Any); }
+
+Result<std::unique_ptr<Context>> create_headless_context() {
+    if (auto hardware = create_context(Renderers::Hardware)) return hardware;
+    auto osmesa = create_osmesa_context();
+    if (osmesa) return osmesa;
+    auto egl = create_context(Renderers::Any);
+    if (egl) return egl;
+    return fail(ErrorCode::Unsupported,
+                "No OpenGL context: " + osmesa.error().message + " " + egl.error().message);
 }
 
 }  // namespace gnomon::gl

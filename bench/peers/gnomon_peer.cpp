@@ -132,8 +132,7 @@ Status GnomonPeer::start() {
 // Only when it is asked for: it is no part of the set-up that is measured.
 Status GnomonPeer::start_dry() {
 #if GNOMON_PEER_IS_GL
-    auto context = gl::create_osmesa_context();
-    if (!context) context = gl::create_egl_context();
+    auto context = gl::create_headless_context();
     if (!context) return forward_error(context);
     auto backend = gl::create_backend(make_dry(std::move(*context)));
     if (!backend) return forward_error(backend);

@@ -268,9 +268,12 @@ ScreenBounds Screen::of(const ShadowHull& hull, const Reach& reach, double plane
 
 // Less than 0 or more than 1 before and behind the planes, as unclipped depth is clamped.
 double Screen::stored_depth(double ahead) const {
+    if (std::isinf(ahead) && ahead > 0.0) {
+        const bool is_parallel = w_[1] == 0.0;
+        return is_parallel ? z_[1] * ahead : z_[1] / w_[1];
+    }
     const double w = w_[0] + w_[1] * ahead;
     if (!(w > 0.0)) return 1.0;
-    if (std::isinf(ahead)) return z_[1] / w_[1];
     return (z_[0] + z_[1] * ahead) / w;
 }
 

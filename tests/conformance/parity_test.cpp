@@ -72,12 +72,6 @@ Bytes draw_scene(gpu::Device& device, std::uint32_t sample_count) {
     return bytes;
 }
 
-/// llvmpipe draws for OSMesa, EGL and lavapipe alike.
-std::string rasteriser_of(const gpu::Device& device) {
-    const std::string& adapter = device.caps().adapter;
-    return adapter.find("llvmpipe") != std::string::npos ? "llvmpipe" : adapter;
-}
-
 template <class T>
 std::size_t differences(const std::vector<T>& a, const std::vector<T>& b) {
     EXPECT_EQ(a.size(), b.size());
@@ -104,7 +98,7 @@ void compare_all(std::uint32_t sample_count) {
                                                [](std::uint8_t value) { return value != 0; });
             EXPECT_GT(covered, 1000) << "the scene counts next to nothing";
         }
-        const std::string rasteriser = rasteriser_of(device);
+        const std::string rasteriser = test::rasteriser_of(device);
         const auto found = references.find(rasteriser);
         if (found == references.end()) {
             references.emplace(rasteriser, std::pair(device_case.name, std::move(bytes)));

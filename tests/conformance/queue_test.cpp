@@ -78,6 +78,22 @@ TEST_P(Queue, BuffersStartAsZero) {
     }
 }
 
+// What makes a buffer zero must be over before it is written.
+TEST_P(Queue, WhatIsWrittenToANewBufferStays) {
+    for (const std::uint64_t count : {256U, 16384U, 1U << 18U, 1U << 21U}) {
+        std::vector<std::uint32_t> words(count);
+        std::iota(words.begin(), words.end(), 1U);
+        for (int round = 0; round < 4; ++round) {
+            const auto buffer = make(count * 4);
+            const auto copied = make(count * 4);
+            write(buffer, words);
+            copy(buffer, 0, copied, 0, count * 4);
+            EXPECT_EQ(words_of(buffer, count), words);
+            EXPECT_EQ(words_of(copied, count), words);
+        }
+    }
+}
+
 TEST_P(Queue, TexturesStartAsZero) {
     for (const gpu::Format format :
          {gpu::Format::R8Unorm, gpu::Format::R8Uint, gpu::Format::R32Uint, gpu::Format::R32Float,

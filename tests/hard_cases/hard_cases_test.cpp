@@ -50,8 +50,7 @@ std::vector<Outcome> devices_for(const HardCase& hard_case) {
         if (!has(**device, hard_case.options.depth_stencil_format)) continue;
         outcomes.push_back(
             {*device, device_case.name,
-             known_limit(hard_case.name, on_swiftshader(**device) ? std::string_view("SwiftShader")
-                                                                  : device_case.name)});
+             known_limit(hard_case.name, device_case.name, rasteriser_of((*device)->device))});
     }
     return outcomes;
 }

@@ -12,7 +12,7 @@ namespace gnomon::test {
 struct KnownLimit {
     /// A name, or what several names begin with.
     std::string_view hard_case;
-    /// A device's name, "SwiftShader" for that adapter, or "every device".
+    /// A device's name, a rasteriser's (rasteriser_of), or "every device".
     std::string_view device;
     /// So many pixels at most are wrong, or differ from the other devices', in all frames, lights
     /// and samples together.
@@ -21,6 +21,7 @@ struct KnownLimit {
 };
 
 /// Null where the case has to be right.
-[[nodiscard]] const KnownLimit* known_limit(std::string_view hard_case, std::string_view device);
+[[nodiscard]] const KnownLimit* known_limit(std::string_view hard_case, std::string_view device,
+                                            std::string_view rasteriser);
 
 }  // namespace gnomon::test

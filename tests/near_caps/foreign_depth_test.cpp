@@ -147,12 +147,25 @@ TEST(CapBias, ErrsWithinItselfAndNowhereElse) {
         const HostOptions options{.cap_bias = {constant, 0.0F}, .technique = Technique::DepthFail};
         return judge_lights(truth, host_picture(drawing_device(), setting, options).masks);
     };
-    const auto within = judged(1'650);
+    // The bias from which on the sheet casts nothing.
+    std::int32_t kept = 1;
+    std::int32_t lost = 1 << 22;
+    while (lost - kept > kept / 64 + 1) {
+        const std::int32_t middle = kept + (lost - kept) / 2;
+        (judged(middle).false_light == 0 ? kept : lost) = middle;
+    }
+    std::printf("a sheet 1 mm above a floor casts its shadow up to a bias of %d steps\n", kept);
+    const auto within = judged(kept - kept / 32);
     EXPECT_GT(within.shadowed, 1'000U);
     EXPECT_EQ(within.wrong(), 0U);
-    const auto beyond = judged(1'800);
+    const auto beyond = judged(lost + lost / 16);
     EXPECT_EQ(beyond.false_light, beyond.shadowed);
     EXPECT_EQ(beyond.false_shadow, 0U);
+    // What a step is, is the driver's choice.
+    if (rasteriser_of(drawing_device()) == "llvmpipe") {
+        EXPECT_GE(kept, 1'650);
+        EXPECT_LE(lost, 1'800);
+    }
 }
 
 }  // namespace

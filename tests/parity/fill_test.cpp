@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -72,7 +74,8 @@ TEST_P(Fill, is_the_same_on_every_device) {
     for (const std::uint32_t samples : {1U, 4U}) {
         for (const auto technique :
              {std::optional<shadows::Technique>(), std::optional(shadows::Technique::DepthFail)}) {
-            std::optional<Filled> first;
+            // Depths of two surfaces in one place need not compare alike on two drivers.
+            std::map<std::string, Filled> firsts;  // by rasteriser
             for (const DeviceCase& device_case : drawing_devices()) {
                 auto device = shared_device(device_case);
                 if (!device || !(*device)->device.caps().features.occlusion_query) {
@@ -92,14 +95,15 @@ TEST_P(Fill, is_the_same_on_every_device) {
                 for (std::size_t i = 0; i < filled.counted.size(); ++i) {
                     EXPECT_LE(filled.counted[i], filled.rasterised[i]) << "light " << i;
                 }
-                if (!first) first = filled;
-                EXPECT_EQ(filled.rasterised, first->rasterised);
-                EXPECT_EQ(filled.counted, first->counted);
+                const Filled& first =
+                    firsts.try_emplace(rasteriser_of((*device)->device), filled).first->second;
+                EXPECT_EQ(filled.rasterised, first.rasterised);
+                EXPECT_EQ(filled.counted, first.counted);
                 if (samples != 1 || technique) continue;
                 const Filled by_quads =
                     fill_of((*device)->device, setting, samples, "gpu_quads", technique);
-                EXPECT_EQ(by_quads.rasterised, first->rasterised) << "quads on every edge";
-                EXPECT_EQ(by_quads.counted, first->counted) << "quads on every edge";
+                EXPECT_EQ(by_quads.rasterised, first.rasterised) << "quads on every edge";
+                EXPECT_EQ(by_quads.counted, first.counted) << "quads on every edge";
             }
         }
     }

@@ -90,6 +90,27 @@ TEST_F(Fill, VolumesEndBehindTheGround) {
     EXPECT_NE(frame(system, all_).draws[0].depth, DepthBounds{});
 }
 
+// A shadow that nothing ends goes on to the far plane, also where rays are parallel.
+TEST_F(Fill, DepthBoundsOfEndlessShadowsReachTheFarPlane) {
+    ShadowSystem system = make({}, Receivers::Anywhere);
+    for (const glm::dmat4& clip_from_view :
+         {orthographic(20.0, 12.0, 0.5, 80.0), finite_perspective(0.8, 1.5, 0.1, 80.0),
+          infinite_perspective(0.8, 1.5, 0.1)}) {
+        View view = all_;
+        view.clip_from_view = clip_from_view;
+        view.projection = clip_from_view[3][3] == 1.0   ? ProjectionKind::Orthographic
+                          : clip_from_view[2][2] != 0.0 ? ProjectionKind::FinitePerspective
+                                                        : ProjectionKind::InfinitePerspective;
+        const DrawList& list = frame(system, view);
+        ASSERT_EQ(list.draws.size(), 5U);
+        for (const VolumeDraw& draw : list.draws) {
+            EXPECT_EQ(draw.depth.min, 0.0F);
+            EXPECT_GT(draw.depth.max, 0.0F);
+            EXPECT_LT(draw.depth.max, 1.0F);
+        }
+    }
+}
+
 TEST_F(Fill, WhatIsOutOfViewIsNotDetectedUntilItIsSeen) {
     ShadowSystem system = make({});
     const View away = looking({0, 12, 40}, {0, 12, 80});

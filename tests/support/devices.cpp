@@ -27,7 +27,8 @@ namespace {
 using BackendResult = Result<std::unique_ptr<gpu::Backend>>;
 
 #if GNOMON_HAS_GL
-template <class CreateContext>
+using CreateContext = Result<std::unique_ptr<gl::Context>> (*)();
+
 BackendResult create_gl(CreateContext create_context, gl::StencilPath path, gpu::MessageSink sink) {
     auto context = create_context();
     if (!context) return forward_error(context);
@@ -37,21 +38,26 @@ BackendResult create_gl(CreateContext create_context, gl::StencilPath path, gpu:
                                                     .message_sink = std::move(sink)});
 }
 
-DeviceCase osmesa_case(std::string name, gl::StencilPath path) {
-    return {
-        .name = std::move(name), .draws = true, .create_backend = [path](gpu::MessageSink sink) {
-            return create_gl(gl::create_osmesa_context, path, std::move(sink));
-        }};
+DeviceCase gl_case(std::string name, CreateContext create_context, gl::StencilPath path) {
+    return {.name = std::move(name),
+            .draws = true,
+            .create_backend = [create_context, path](gpu::MessageSink sink) {
+                return create_gl(create_context, path, std::move(sink));
+            }};
 }
 
 std::vector<DeviceCase> gl_cases() {
-    return {osmesa_case("gl_osmesa_separate", gl::StencilPath::Separate),
-            osmesa_case("gl_osmesa_two_side", gl::StencilPath::TwoSide),
-            osmesa_case("gl_osmesa_two_pass", gl::StencilPath::TwoPass),
-            {.name = "gl_egl", .draws = true, .create_backend = [](gpu::MessageSink sink) {
-                 return create_gl(gl::create_egl_context, gl::StencilPath::Separate,
-                                  std::move(sink));
-             }}};
+    using enum gl::StencilPath;
+    const char* variable = std::getenv("GNOMON_TEST_GL");
+    if (variable != nullptr && std::string_view(variable) == "egl") {
+        return {gl_case("gl_egl_separate", gl::create_egl_context, Separate),
+                gl_case("gl_egl_two_side", gl::create_egl_context, TwoSide),
+                gl_case("gl_egl_two_pass", gl::create_egl_context, TwoPass)};
+    }
+    return {gl_case("gl_osmesa_separate", gl::create_osmesa_context, Separate),
+            gl_case("gl_osmesa_two_side", gl::create_osmesa_context, TwoSide),
+            gl_case("gl_osmesa_two_pass", gl::create_osmesa_context, TwoPass),
+            gl_case("gl_egl", gl::create_egl_context, Separate)};
 }
 #endif
 
@@ -139,6 +145,14 @@ Result<TestDevice*> shared_device(const DeviceCase& device_case) {
     }
     if (!found->second.device) return tl::unexpected<Error>(found->second.error);
     return found->second.device.get();
+}
+
+std::string rasteriser_of(const gpu::Device& device) {
+    const std::string& adapter = device.caps().adapter;
+    for (const char* name : {"llvmpipe", "SwiftShader"}) {
+        if (adapter.find(name) != std::string::npos) return name;
+    }
+    return adapter;
 }
 
 bool is_required(const std::string& device_name) {

@@ -4,7 +4,8 @@
 // that this machine cannot make is skipped with the reason, or fails when the environment variable
 // GNOMON_REQUIRE_DEVICES names the device (comma-separated, or "all"). Where GNOMON_TEST_ADAPTER is
 // set, the Vulkan adapter with that in its name is the only device that draws: another rasteriser,
-// whose masks differ from Mesa's within the band.
+// whose masks differ from Mesa's within the band. Where GNOMON_TEST_GL is "egl", OpenGL is drawn
+// with through EGL alone, on all stencil paths: a graphics card's, beside its Vulkan.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -51,6 +52,10 @@ struct TestDevice {
 /// One device per case and process, made when first asked for; a failure is remembered too. Freed
 /// before the program ends.
 [[nodiscard]] Result<TestDevice*> shared_device(const DeviceCase& device_case);
+
+/// What turns triangles into samples: "llvmpipe" for OSMesa, EGL and lavapipe alike, "SwiftShader",
+/// else the adapter's own name, which is another for OpenGL than for Vulkan.
+[[nodiscard]] std::string rasteriser_of(const gpu::Device& device);
 
 /// Whether GNOMON_REQUIRE_DEVICES names the device.
 [[nodiscard]] bool is_required(const std::string& device_name);

@@ -111,7 +111,11 @@ TEST_F(Mutation, an_unchanged_copy_is_right) {
               0U);
 }
 
+// The depth of a triangle depends, in its last bit, on the corner from which llvmpipe begins. Where
+// it does not (NVIDIA's cards), there is nothing to find.
 TEST_F(Mutation, rotated_near_caps_are_found) {
+    const std::string rasteriser = rasteriser_of(must(shared_device(drawing_device()))->device);
+    if (rasteriser != "llvmpipe") GTEST_SKIP() << "not of " << rasteriser;
     const auto rotate = [](const shadows::VolumeDraw&, shadows::Volume& volume) {
         for (const shadows::CapList& list : volume.near_caps()) {
             const shadows::IndexRange& cap = list.triples;

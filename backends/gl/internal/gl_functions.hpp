@@ -19,7 +19,7 @@
     X(ActiveTexture) X(AttachShader) X(BeginQuery) X(BindBuffer) X(BindBufferRange)                  \
     X(BindFramebuffer) X(BindSampler) X(BindTexture) X(BindVertexArray) X(BindVertexBuffer)          \
     X(BlendColor) X(BlendEquationSeparatei) X(BlendFuncSeparatei) X(BlitFramebuffer) X(BufferData)   \
-    X(BufferSubData) X(CheckFramebufferStatus) X(ClearBufferData) X(ClearBufferfi) X(ClearBufferfv)  \
+    X(BufferSubData) X(CheckFramebufferStatus) X(ClearBufferfi) X(ClearBufferfv)                     \
     X(ClearBufferiv) X(ClearBufferuiv) X(ColorMask) X(ColorMaski) X(CompileShader)                   \
     X(CopyBufferSubData) X(CreateProgram) X(CreateShader) X(CullFace) X(DebugMessageCallback)        \
     X(DebugMessageControl) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteQueries)  \
