@@ -19,9 +19,6 @@ namespace {
 
 using Cells = std::vector<const Cell*>;
 
-// Shares of the judged pixels that few would see.
-constexpr double hardly_wrong = 1e-3;
-
 bool is_hardly_wrong_and_faster(const Row& row) {
     return row.skipped.empty() && row.technique != "auto" &&
            row.errors.wrong_share_worst <= hardly_wrong && row.against_auto.high < 0.95;
@@ -130,35 +127,11 @@ std::string line(const Cell& cell, const Row& row) {
                        with_commas(row.errors.wrong_worst), percent(row.errors.wrong_share_worst));
 }
 
-// The rivals of a scene, one a family.
 std::string short_table(const Cell& cell) {
-    std::vector<const Row*> rows;
-    const auto add = [&](const Row* row) {
-        if (row != nullptr && std::ranges::find(rows, row) == rows.end()) rows.push_back(row);
-    };
-    add(find_row(cell, "auto"));
-    const Row* quickest = nullptr;
-    const Row* quickest_map = nullptr;
-    for (const Row& row : cell.rows) {
-        if (!row.skipped.empty()) continue;
-        const auto is_faster = [&](const Row* than) {
-            return than == nullptr || comparable_ms(cell, row) < comparable_ms(cell, *than);
-        };
-        if (row.family == "approximate" && row.errors.wrong_share_worst <= hardly_wrong &&
-            is_faster(quickest)) {
-            quickest = &row;
-        }
-        if (row.family == "shadow maps" && is_faster(quickest_map)) quickest_map = &row;
-    }
-    add(quickest);
-    add(quickest_map);
-    add(least_wrong(cell, "shadow maps"));
-    add(find_row(cell, "planar"));
-    add(find_row(cell, "ray casting"));
     std::string text =
         "<table><tr><th>technique</th><th>ms</th><th>wrong<br>pixels</th><th>of "
         "all</th></tr>\n";
-    for (const Row* row : rows) text += line(cell, *row);
+    for (const std::size_t row : rivals_of_each_kind(cell)) text += line(cell, cell.rows[row]);
     return text + "</table>\n";
 }
 

@@ -17,7 +17,6 @@ namespace gnomon::report {
 namespace {
 
 using internal::escaped;
-using internal::three_digits;
 using internal::with_commas;
 
 constexpr const char* style = R"(
@@ -41,9 +40,9 @@ tr.auto td{background:#fff3e4!important;font-weight:600}tr.front td:first-child:
 .mark{width:.95em;height:.95em;margin-right:.4em;vertical-align:-.1em}
 .legend span{margin-right:1rem;white-space:nowrap;font-size:.86rem}
 .plot{width:100%;min-width:40rem;max-width:60rem;display:block}
-.plot text{font:12px system-ui,sans-serif;fill:#44413b}.plot .name{fill:#1d1d1f;font-weight:600;paint-order:stroke;stroke:#fdfcfa;stroke-width:3px}
-.plot .axis{font-size:13px;fill:#1d1d1f}.grid{stroke:#e3ddd2;stroke-width:1}.leader{stroke:#8a8377;stroke-width:.8}
-.pareto{fill:none;stroke:#8a8377;stroke-width:1.5;stroke-dasharray:5 3}
+.plot text{font-family:system-ui,sans-serif;font-size:12px;fill:#44413b}.plot .name{fill:#1d1d1f;paint-order:stroke;stroke:#fdfcfa;stroke-width:3px}
+.plot .axis{font-size:13px;fill:#1d1d1f}.plot .muted{fill:#8a8377;font-style:italic}.grid{stroke:#e3ddd2;stroke-width:1}.leader{stroke:#8a8377;stroke-width:.8}
+.frame{fill:none;stroke:#8a8377}.plot .auto{fill:none;stroke:#d55e00;stroke-width:1.2;opacity:.75}.pareto{fill:none;stroke:#55524c;stroke-width:1.5;stroke-dasharray:5 3}
 img{border:1px solid #ddd6cb;display:block;max-width:100%;height:auto}
 .cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,19rem),1fr));gap:1rem}
 .card{border:1px solid #ddd6cb;border-radius:8px;padding:.9rem 1rem;background:#fff;min-width:0}.card h3{margin-top:0}
@@ -130,15 +129,16 @@ rasterisers may rightly differ.</p>
 depth of the scene, the shadows. No shading, which would be the same for all. Techniques took turns for {}
 round{}, so that what slows the machine down slows all of them; what is wrong and more than three times
 as slow as <code>auto</code> was left out after three. Plots show what a
-technique took beside <code>auto</code>: its ratio times auto’s median. On their dashed line, marked ◆ in
-the tables, is what nothing else beats in both.</p>
+technique took beside <code>auto</code>: its ratio times auto’s median. Left of their coloured line is what
+is faster than <code>auto</code>. On their dashed line, marked ◆ in the tables, is what nothing else beats in both;
+what is as right as <code>auto</code>, and not faster beyond the 95 % interval, is not.</p>
 <p class="legend">{}</p>
 )";
 
 std::string how_to_read(const Report& report) {
     const Options& o = report.options;
-    return fmt::format(reading, o.frames, three_digits(o.degrees_per_frame), o.width, o.height,
-                       o.rounds, o.rounds == 1 ? "" : "s", legend());
+    return fmt::format(reading, o.frames, fmt::format("{:g}", o.degrees_per_frame), o.width,
+                       o.height, o.rounds, o.rounds == 1 ? "" : "s", legend());
 }
 
 std::string glossary(const Report& report) {

@@ -82,23 +82,6 @@ std::string gallery(const Cell& cell) {
 
 }  // namespace
 
-const Row* find_row(const Cell& cell, std::string_view technique) {
-    const auto found = std::ranges::find(cell.rows, technique, &Row::technique);
-    return found != cell.rows.end() && found->skipped.empty() ? &*found : nullptr;
-}
-
-const Row* least_wrong(const Cell& cell, std::string_view family) {
-    const Row* best = nullptr;
-    const auto cost = [&](const Row& row) {
-        return std::pair(row.errors.wrong_worst, comparable_ms(cell, row));
-    };
-    for (const Row& row : cell.rows) {
-        if (row.family != family || !row.skipped.empty()) continue;
-        if (best == nullptr || cost(row) < cost(*best)) best = &row;
-    }
-    return best;
-}
-
 std::string image_html(const Thumbnail& thumbnail, std::string_view alt) {
     if (thumbnail.png.empty()) return {};
     return fmt::format(

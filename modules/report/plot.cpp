@@ -2,10 +2,7 @@
 #include "internal/plot.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,14 +14,18 @@ namespace gnomon::report::internal {
 namespace {
 
 constexpr double width = 900.0;
-constexpr double height = 540.0;
-constexpr double left = 70.0;
-constexpr double right = 884.0;
-constexpr double top = 16.0;
-constexpr double one_wrong = 352.0;  // y of one wrong pixel
-constexpr double zero_top = 370.0;   // the strip of none
-constexpr double zero_bottom = 446.0;
-constexpr double radius = 5.0;
+constexpr double left = 128.0;
+constexpr double right = 888.0;
+constexpr double top = 30.0;
+constexpr double one_wrong = 318.0;     // y of one wrong pixel
+constexpr double panel_bottom = 330.0;  // of those with wrong pixels
+constexpr double lanes_top = 358.0;     // of those with none
+constexpr double lane_height = 26.0;
+constexpr double room_for_names = 185.0;  // left of the fastest
+constexpr double radius = 4.6;
+constexpr double letter_width = 7.0;  // of 12 px: no browser is asked
+// Scaled to less than this share of a decade, an axis has too few ticks to be read.
+constexpr double fewest_decades = 0.7;
 
 struct Axis {
     double low = 0.0;  // logarithms
@@ -33,6 +34,9 @@ struct Axis {
     double to = 1.0;
     [[nodiscard]] double operator()(double value) const {
         return from + (std::log10(value) - low) / (high - low) * (to - from);
+    }
+    [[nodiscard]] double log_at(double pixel) const {
+        return low + (pixel - from) / (to - from) * (high - low);
     }
 };
 
@@ -49,71 +53,36 @@ struct Rectangle {
     }
 };
 
+/// Where a name may stand beside its dot.
+struct Place {
+    double dx, dy;
+    const char* anchor;
+    bool with_line = false;
+};
+
 std::string tick_text(double value) {
     return value >= 1000.0 ? with_commas(static_cast<std::uint64_t>(std::llround(value)))
-                           : fmt::format("{:g}", value);
+                           : fmt::format("{:.6g}", value);
 }
 
 // 1, 2, 5 of each decade where there are few decades, else 1 alone.
-std::vector<double> ticks(const Axis& axis, double few_decades) {
+std::vector<double> ticks(double low, double high, double few_decades) {
     std::vector<double> values;
-    const bool fine = axis.high - axis.low < few_decades;
-    for (int decade = static_cast<int>(std::floor(axis.low)); decade <= axis.high; ++decade) {
+    const bool fine = high - low < few_decades;
+    for (int decade = static_cast<int>(std::floor(low)); decade <= high; ++decade) {
         for (const double step : {1.0, 2.0, 5.0}) {
             if (step > 1.0 && !fine) continue;
             const double value = step * std::pow(10.0, decade);
             const double log = std::log10(value);
-            if (log >= axis.low - 1e-9 && log <= axis.high + 1e-9) values.push_back(value);
+            if (log >= low - 1e-9 && log <= high + 1e-9) values.push_back(value);
         }
     }
     return values;
 }
 
-// A shape a family, so that colours are not needed to tell them apart.
-std::string marker(std::string_view family, double x, double y, double r) {
-    const auto polygon = [&](std::initializer_list<std::pair<double, double>> corners) {
-        std::string path = "M";
-        for (const auto& [cx, cy] : corners) {
-            path += fmt::format("{:.1f} {:.1f}L", x + cx * r, y + cy * r);
-        }
-        path.back() = 'Z';
-        return fmt::format("<path d=\"{}\"", path);
-    };
-    if (family == "projection") return polygon({{-.9, -.9}, {.9, -.9}, {.9, .9}, {-.9, .9}});
-    if (family == "silhouettes") return polygon({{0, -1.2}, {1.1, .8}, {-1.1, .8}});
-    if (family == "approximate") return polygon({{0, -1.25}, {1.25, 0}, {0, 1.25}, {-1.25, 0}});
-    if (family == "shadow maps") return polygon({{0, 1.2}, {1.1, -.8}, {-1.1, -.8}});
-    if (family == "planar") {
-        return polygon({{-.4, -1.2},
-                        {.4, -1.2},
-                        {.4, -.4},
-                        {1.2, -.4},
-                        {1.2, .4},
-                        {.4, .4},
-                        {.4, 1.2},
-                        {-.4, 1.2},
-                        {-.4, .4},
-                        {-1.2, .4},
-                        {-1.2, -.4},
-                        {-.4, -.4}});
-    }
-    if (family == "rays") {
-        return polygon({{0, -1.3},
-                        {.35, -.35},
-                        {1.3, 0},
-                        {.35, .35},
-                        {0, 1.3},
-                        {-.35, .35},
-                        {-1.3, 0},
-                        {-.35, -.35}});
-    }
-    return fmt::format(
-        "<path d=\"M{0:.1f} {1:.1f}a{2:.1f} {2:.1f} 0 1 0 {3:.1f} 0a{2:.1f} {2:.1f} 0 "
-        "1 0 -{3:.1f} 0Z\"",
-        x - r, y, r, 2.0 * r);
+bool is_drawn(const Cell& cell, const Row& row) {
+    return row.skipped.empty() && comparable_ms(cell, row) > 0.0;
 }
-
-bool is_drawn(const Row& row) { return row.skipped.empty() && row.frame_ms.median > 0.0; }
 
 class Plot {
 public:
@@ -123,18 +92,25 @@ public:
 private:
     bool scale();
     void place_dots();
-    void draw_grid();
+    void draw_panel();
+    void draw_lanes();
+    void draw_auto();
     void draw_front();
     void draw_dots();
-    void draw_legend();
-    void label_all();
-    void label(const Dot& dot);
-    [[nodiscard]] std::vector<std::size_t> worth_a_label() const;
+    void name(const Dot& dot, bool on_front);
+    void name_all();
+    [[nodiscard]] const Row& row(const Dot& dot) const { return cell_.rows[dot.row]; }
+    [[nodiscard]] bool is_right(const Dot& dot) const { return row(dot).errors.wrong_worst == 0; }
+    [[nodiscard]] double lane_of(std::string_view family) const;
+    [[nodiscard]] double bottom() const {
+        return lanes_top + lane_height * static_cast<double>(lanes_.size());
+    }
     [[nodiscard]] bool is_free(const Rectangle& box) const;
 
     const Cell& cell_;
     Axis x_;
     Axis y_;
+    std::vector<std::string_view> lanes_;  // families, downwards
     std::vector<Dot> dots_;
     std::vector<Rectangle> taken_;
     std::string svg_;
@@ -145,33 +121,50 @@ bool Plot::scale() {
     double slowest = 0.0;
     double most = 10.0;
     for (const Row& row : cell_.rows) {
-        if (!is_drawn(row)) continue;
+        if (!is_drawn(cell_, row)) continue;
         fastest = std::min(fastest, comparable_ms(cell_, row));
         slowest = std::max(slowest, comparable_ms(cell_, row));
         most = std::max(most, static_cast<double>(row.errors.wrong_worst));
     }
     if (!(slowest > 0.0)) return false;
-    x_ = {std::log10(fastest * 0.85), std::log10(slowest * 1.25), left + 8.0, right};
+    const double low = std::log10(fastest);
+    x_ = {low, std::max(std::log10(slowest), low + fewest_decades), left + room_for_names,
+          right - 18.0};
     y_ = {0.0, std::log10(most * 1.6), one_wrong, top};
+    for (const std::string_view family : families) {
+        const bool there = std::ranges::any_of(cell_.rows, [&](const Row& row) {
+            return row.family == family && is_drawn(cell_, row);
+        });
+        if (there) lanes_.push_back(family);
+    }
     return true;
 }
 
-// Where many have nothing wrong they would lie on each other: they go up and down within the strip.
+double Plot::lane_of(std::string_view family) const {
+    const auto lane = static_cast<double>(std::ranges::find(lanes_, family) - lanes_.begin());
+    return lanes_top + lane_height * (lane + 0.5);
+}
+
+// Within a lane many would lie on each other: they go up and down a little. What has a name
+// comes first and stays in the middle.
 void Plot::place_dots() {
+    std::vector<std::size_t> order = worth_a_name(cell_);
     for (std::size_t i = 0; i < cell_.rows.size(); ++i) {
+        if (std::ranges::find(order, i) == order.end()) order.push_back(i);
+    }
+    for (const std::size_t i : order) {
         const Row& row = cell_.rows[i];
-        if (!is_drawn(row)) continue;
+        if (!is_drawn(cell_, row)) continue;
         Dot dot{i, x_(comparable_ms(cell_, row)), 0.0};
         if (row.errors.wrong_worst > 0) {
             dot.y = y_(static_cast<double>(row.errors.wrong_worst));
         } else {
-            const double middle = (zero_top + zero_bottom) / 2.0;
-            dot.y = middle;
-            for (const double away : {0.0, 10.0, -10.0, 20.0, -20.0, 30.0, -30.0}) {
+            const double middle = lane_of(row.family);
+            for (const double away : {0.0, 7.0, -7.0, 0.0}) {
                 dot.y = middle + away;
                 const bool free = std::ranges::none_of(dots_, [&](const Dot& other) {
-                    return std::abs(other.y - dot.y) < 2.0 * radius &&
-                           std::abs(other.x - dot.x) < 2.0 * radius;
+                    return std::abs(other.y - dot.y) < 7.0 &&
+                           std::abs(other.x - dot.x) < 1.7 * radius;
                 });
                 if (free) break;
             }
@@ -181,155 +174,148 @@ void Plot::place_dots() {
     }
 }
 
-void Plot::draw_grid() {
-    svg_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#e6f3ec\"/>\n",
-                        left, zero_top, right - left, zero_bottom - zero_top);
-    for (const double value : ticks(x_, 3.2)) {
+void Plot::draw_panel() {
+    for (const double value : ticks(x_.log_at(left), x_.log_at(right), 3.2)) {
+        const double x = x_(value);
         svg_ += fmt::format(
-            "<line x1=\"{0:.1f}\" y1=\"{1}\" x2=\"{0:.1f}\" y2=\"{2}\" "
-            "class=\"grid\"/><text x=\"{0:.1f}\" y=\"{3}\" "
-            "text-anchor=\"middle\">{4}</text>\n",
-            x_(value), top, zero_bottom, zero_bottom + 17.0, tick_text(value));
+            "<path d=\"M{0:.1f} {1}V{2}M{0:.1f} {3}V{4}\" class=\"grid\"/><text x=\"{0:.1f}\" "
+            "y=\"{5}\" text-anchor=\"middle\">{6}</text>\n",
+            x, top, panel_bottom, lanes_top, bottom(), bottom() + 17.0, tick_text(value));
     }
-    for (const double value : ticks(y_, 1.5)) {
+    for (const double value : ticks(y_.low, y_.high, 1.5)) {
         svg_ += fmt::format(
-            "<line x1=\"{0}\" y1=\"{1:.1f}\" x2=\"{2}\" y2=\"{1:.1f}\" "
-            "class=\"grid\"/><text x=\"{3}\" y=\"{4:.1f}\" "
+            "<path d=\"M{0} {1:.1f}H{2}\" class=\"grid\"/><text x=\"{3}\" y=\"{4:.1f}\" "
             "text-anchor=\"end\">{5}</text>\n",
-            left, y_(value), right, left - 7.0, y_(value) + 4.0, tick_text(value));
+            left, y_(value), right, left - 8.0, y_(value) + 4.0, tick_text(value));
     }
-    svg_ += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\" class=\"axis\">none</text>\n",
-                        left - 7.0, (zero_top + zero_bottom) / 2.0 + 4.0);
     svg_ += fmt::format(
-        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" class=\"axis\">"
-        "milliseconds a frame, beside auto · further left is faster</text>\n",
-        (left + right) / 2.0, zero_bottom + 38.0);
+        "<path d=\"M{0} {1}V{2}H{3}\" class=\"frame\"/><text transform=\"translate(60 {4}) "
+        "rotate(-90)\" text-anchor=\"middle\" class=\"axis\">wrong pixels (worst frame)</text>"
+        "<text transform=\"translate(78 {4}) rotate(-90)\" text-anchor=\"middle\">lower is better"
+        "</text>\n<text x=\"{5}\" y=\"{6}\" text-anchor=\"middle\" class=\"axis\">milliseconds a "
+        "frame, beside auto · further left is faster</text>\n",
+        left, top, panel_bottom, right, (top + panel_bottom) / 2.0, (left + right) / 2.0,
+        bottom() + 38.0);
+}
+
+// Their names and marks are the legend of the panel above, too.
+void Plot::draw_lanes() {
     svg_ += fmt::format(
-        "<text transform=\"translate(14 {}) rotate(-90)\" text-anchor=\"middle\" "
-        "class=\"axis\">wrong pixels (worst frame) · lower is better</text>\n",
-        (top + zero_bottom) / 2.0);
+        "<text x=\"{}\" y=\"{}\" class=\"axis\" text-anchor=\"start\">no wrong pixel in any frame"
+        "</text>\n",
+        left, lanes_top - 8.0);
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+        const double y = lanes_top + lane_height * static_cast<double>(i);
+        svg_ += fmt::format(
+            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>{} fill=\"{}\"/>"
+            "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n",
+            left, y, right - left, lane_height, i % 2 == 0 ? "#e3f1e9" : "#eef7f2",
+            marker_shape(lanes_[i], left - 14.0, y + lane_height / 2.0, radius + 0.6),
+            family_color(lanes_[i]), left - 27.0, y + lane_height / 2.0 + 4.0, lanes_[i]);
+        const bool has_any = std::ranges::any_of(
+            dots_, [&](const Dot& dot) { return is_right(dot) && row(dot).family == lanes_[i]; });
+        if (has_any) continue;
+        svg_ +=
+            fmt::format("<text x=\"{}\" y=\"{}\" class=\"muted\">all have wrong pixels</text>\n",
+                        left + 10.0, y + lane_height / 2.0 + 4.0);
+    }
+}
+
+void Plot::draw_auto() {
+    const auto dot =
+        std::ranges::find_if(dots_, [&](const Dot& d) { return row(d).technique == "auto"; });
+    if (dot == dots_.end()) return;
+    svg_ += fmt::format(
+        "<path d=\"M{0:.1f} {1}V{2}\" class=\"auto\"/><text x=\"{0:.1f}\" y=\"{3}\" "
+        "text-anchor=\"middle\" class=\"name\" font-weight=\"600\">auto: {4} ms, {5} "
+        "wrong</text>\n",
+        dot->x, top - 8.0, bottom(), top - 13.0, three_digits(comparable_ms(cell_, row(*dot))),
+        is_right(*dot) ? "none" : with_commas(row(*dot).errors.wrong_worst));
+    taken_.push_back({dot->x - 1.0, top, dot->x + 1.0, panel_bottom});
 }
 
 void Plot::draw_front() {
-    const auto dot_of = [&](std::size_t row) { return std::ranges::find(dots_, row, &Dot::row); };
     std::string path;
+    double last_x = 0.0;
     double last_y = top;
-    for (const std::size_t row : pareto_front(cell_)) {
-        const auto dot = dot_of(row);
+    for (const std::size_t at : pareto_front(cell_)) {
+        const auto dot = std::ranges::find(dots_, at, &Dot::row);
         if (dot == dots_.end()) continue;
-        path += path.empty() ? fmt::format("M{:.1f} {:.1f}L", dot->x, top)
-                             : fmt::format("L{:.1f} {:.1f}L", dot->x, last_y);
-        path += fmt::format("{:.1f} {:.1f}", dot->x, dot->y);
+        path += path.empty() ? fmt::format("M{:.1f} {:.1f}", dot->x, top)
+                             : fmt::format("H{:.1f}", dot->x);
+        path += fmt::format("V{:.1f}", dot->y);
+        if (last_x > 0.0) taken_.push_back({last_x, last_y - 1.0, dot->x, last_y + 1.0});
+        taken_.push_back({dot->x - 1.0, last_y, dot->x + 1.0, dot->y});
+        last_x = dot->x;
         last_y = dot->y;
     }
     if (path.empty()) return;
-    path += fmt::format("L{} {:.1f}", right, last_y);
+    // Nothing is beyond "none".
+    if (last_y < panel_bottom) path += fmt::format("H{}", right);
     svg_ += fmt::format("<path d=\"{}\" class=\"pareto\"/>\n", path);
 }
 
+// The others first, then those on the front with a dark rim, "auto" on top.
 void Plot::draw_dots() {
-    for (const Dot& dot : dots_) {
-        const Row& row = cell_.rows[dot.row];
-        const bool is_auto = row.technique == "auto";
-        svg_ += fmt::format(
-            "{} fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\">"
-            "<title>{}: {} ms, {} wrong</title></path>\n",
-            marker(row.family, dot.x, dot.y, is_auto ? radius + 2.5 : radius),
-            family_color(row.family), is_auto ? "#000" : "#fff", is_auto ? 2 : 1,
-            escaped(row.technique), three_digits(comparable_ms(cell_, row)),
-            with_commas(row.errors.wrong_worst));
-    }
-}
-
-void Plot::draw_legend() {
-    double x = left;
-    for (const std::string_view family : families) {
-        const bool there = std::ranges::any_of(
-            dots_, [&](const Dot& dot) { return cell_.rows[dot.row].family == family; });
-        if (!there) continue;
-        svg_ += fmt::format("{} fill=\"{}\"/><text x=\"{:.1f}\" y=\"{}\">{}</text>\n",
-                            marker(family, x + 6.0, height - 16.0, radius), family_color(family),
-                            x + 16.0, height - 12.0, family);
-        x += 34.0 + 6.4 * static_cast<double>(family.size());
-    }
-}
-
-// "auto", what nothing beats, and of each family the least wrong and the fastest.
-std::vector<std::size_t> Plot::worth_a_label() const {
-    std::vector<std::size_t> rows;
-    const auto add = [&](std::size_t row) {
-        if (std::ranges::find(rows, row) == rows.end()) rows.push_back(row);
+    const std::vector<std::size_t> front = pareto_front(cell_);
+    const auto weight = [&](const Dot& dot) {
+        if (row(dot).technique == "auto") return 2;
+        return std::ranges::find(front, dot.row) != front.end() ? 1 : 0;
     };
-    if (!cell_.rows.empty() && is_drawn(cell_.rows[0])) add(0);
-    for (const std::size_t row : pareto_front(cell_)) add(row);
-    struct Best {
-        std::optional<std::size_t> least, fastest;
-    };
-    std::map<std::string, Best> best;
-    for (const Dot& dot : dots_) {
-        const Row& row = cell_.rows[dot.row];
-        Best& b = best[row.family];
-        const auto wrong = [&](const Row& r) {
-            return std::pair(r.errors.wrong_worst, comparable_ms(cell_, r));
-        };
-        if (!b.least || wrong(row) < wrong(cell_.rows[*b.least])) b.least = dot.row;
-        if (!b.fastest ||
-            comparable_ms(cell_, row) < comparable_ms(cell_, cell_.rows[*b.fastest])) {
-            b.fastest = dot.row;
+    for (int layer = 0; layer <= 2; ++layer) {
+        for (const Dot& dot : dots_) {
+            if (weight(dot) != layer) continue;
+            svg_ += fmt::format(
+                "{} fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\">"
+                "<title>{}: {} ms, {} wrong</title></path>\n",
+                marker_shape(row(dot).family, dot.x, dot.y, layer == 2 ? radius + 2.4 : radius),
+                family_color(row(dot).family), layer > 0 ? "#000" : "#fff", layer == 2 ? 2 : 1,
+                escaped(row(dot).technique), three_digits(comparable_ms(cell_, row(dot))),
+                with_commas(row(dot).errors.wrong_worst));
         }
     }
-    for (const auto& [family, b] : best) {
-        if (family == "volumes" || family == "silhouettes") continue;
-        add(*b.least);
-        add(*b.fastest);
-    }
-    // The most wrong and the slowest of all: what lies at the edges of a picture is asked about.
-    const auto by = [&](auto&& value) {
-        return std::ranges::max_element(dots_, {},
-                                        [&](const Dot& dot) { return value(cell_.rows[dot.row]); });
-    };
-    if (!dots_.empty()) {
-        add(by([](const Row& r) { return r.errors.wrong_worst; })->row);
-        add(by([&](const Row& r) { return comparable_ms(cell_, r); })->row);
-    }
-    return rows;
 }
 
 bool Plot::is_free(const Rectangle& box) const {
-    return box.x0 > left && box.x1 < width - 2.0 && box.y0 > 0.0 && box.y1 < zero_bottom &&
+    return box.x0 > left + 2.0 && box.x1 < width - 2.0 && box.y0 > top - 6.0 && box.y1 < bottom() &&
            std::ranges::none_of(taken_, [&](const Rectangle& other) { return box.meets(other); });
 }
 
-// Beside its dot where there is room, else at the end of a line; nowhere if there is none at all.
-void Plot::label(const Dot& dot) {
-    const std::string& text = cell_.rows[dot.row].technique;
-    const double text_width = 6.5 * static_cast<double>(text.size());
-    struct Place {
-        double dx, dy;
-        const char* anchor;
-    };
-    std::vector<Place> places{
-        {11.0, 4.0, "start"}, {-11.0, 4.0, "end"}, {0.0, -12.0, "middle"}, {0.0, 20.0, "middle"}};
-    for (const double away : {22.0, 36.0, 50.0, 66.0, 84.0, 104.0}) {
-        places.push_back({away * 0.7, -away * 0.7, "start"});
-        places.push_back({-away * 0.7, -away * 0.7, "end"});
-        places.push_back({0.0, -away, "middle"});
-        places.push_back({away * 0.7, away * 0.7, "start"});
-        places.push_back({-away * 0.7, away * 0.7, "end"});
+// Beside its dot where there is room, else, above the lanes, at the end of a line; nowhere if there
+// is none at all. Left of the front there is nothing else.
+void Plot::name(const Dot& dot, bool on_front) {
+    const std::string& text = row(dot).technique;
+    const double text_width = letter_width * static_cast<double>(text.size());
+    std::vector<Place> places;
+    if (on_front) places.push_back({-11.0, 4.0, "end"});
+    if (is_right(dot)) {
+        for (const double dy : {4.0, lane_of(row(dot).family) - dot.y + 4.0}) {
+            places.push_back({-10.0, dy, "end"});
+            places.push_back({10.0, dy, "start"});
+        }
+    } else {
+        places.insert(places.end(), {{11.0, 4.0, "start"},
+                                     {-11.0, 4.0, "end"},
+                                     {0.0, -11.0, "middle"},
+                                     {0.0, 20.0, "middle"}});
+        for (const double away : {22.0, 34.0, 48.0, 64.0}) {
+            places.push_back({away * 0.7, -away * 0.7, "start", true});
+            places.push_back({-away * 0.7, -away * 0.7, "end", true});
+            places.push_back({away * 0.7, away * 0.7, "start", true});
+            places.push_back({-away * 0.7, away * 0.7, "end", true});
+        }
     }
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto& [dx, dy, anchor] = places[i];
+    const double lowest = is_right(dot) ? bottom() : panel_bottom;
+    for (const auto& [dx, dy, anchor, with_line] : places) {
         const double x = dot.x + dx;
         const double y = dot.y + dy;
         const double x0 = *anchor == 's' ? x : *anchor == 'e' ? x - text_width : x - text_width / 2;
-        const Rectangle box{x0 - 1.0, y - 11.0, x0 + text_width + 1.0, y + 3.0};
-        if (!is_free(box)) continue;
+        const Rectangle box{x0 - 2.0, y - 10.0, x0 + text_width + 2.0, y + 2.5};
+        if (box.y1 > lowest || !is_free(box)) continue;
         taken_.push_back(box);
-        if (i >= 4) {
-            svg_ += fmt::format(
-                "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
-                "class=\"leader\"/>\n",
-                dot.x, dot.y, x, dy < 0.0 ? y + 3.0 : y - 9.0);
+        if (with_line) {
+            svg_ += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" class=\"leader\"/>\n",
+                                dot.x, dot.y, x, dy < 0.0 ? y + 3.0 : y - 9.0);
         }
         svg_ += fmt::format(
             "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" class=\"name\">{}</text>\n", x, y,
@@ -338,10 +324,11 @@ void Plot::label(const Dot& dot) {
     }
 }
 
-void Plot::label_all() {
-    for (const std::size_t row : worth_a_label()) {
-        const auto dot = std::ranges::find(dots_, row, &Dot::row);
-        if (dot != dots_.end()) label(*dot);
+void Plot::name_all() {
+    const std::vector<std::size_t> front = pareto_front(cell_);
+    for (const std::size_t at : worth_a_name(cell_)) {
+        const auto dot = std::ranges::find(dots_, at, &Dot::row);
+        if (dot != dots_.end()) name(*dot, std::ranges::find(front, at) != front.end());
     }
 }
 
@@ -350,63 +337,18 @@ std::string Plot::svg() {
     svg_ = fmt::format(
         "<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Milliseconds against "
         "wrong pixels in {} on {}\">\n",
-        width, height, escaped(cell_.scene), escaped(cell_.backend));
+        width, bottom() + 48.0, escaped(cell_.scene), escaped(cell_.backend));
     place_dots();
-    draw_grid();
+    draw_lanes();
+    draw_panel();
+    draw_auto();
     draw_front();
-    label_all();
+    name_all();
     draw_dots();
-    draw_legend();
     return svg_ + "</svg>\n";
 }
 
 }  // namespace
-
-// After M. Okabe and K. Ito's palette for all kinds of sight.
-std::string_view family_color(std::string_view family) {
-    constexpr std::array<std::string_view, 7> colors{"#d55e00", "#e69f00", "#cc79a7", "#009e73",
-                                                     "#0072b2", "#56b4e9", "#000000"};
-    static_assert(colors.size() == families.size());
-    for (std::size_t i = 0; i < families.size(); ++i) {
-        if (families[i] == family) return colors[i];
-    }
-    return "#808080";
-}
-
-std::string marker_svg(std::string_view family) {
-    return fmt::format(
-        "<svg class=\"mark\" viewBox=\"-8 -8 16 16\" aria-hidden=\"true\">{} fill=\"{}\"/></svg>",
-        marker(family, 0.0, 0.0, 5.5), family_color(family));
-}
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&': out += "&amp;"; break;
-            case '<': out += "&lt;"; break;
-            case '>': out += "&gt;"; break;
-            case '"': out += "&quot;"; break;
-            case '\'': out += "&#39;"; break;
-            default: out += c;
-        }
-    }
-    return out;
-}
-
-std::string three_digits(double value) {
-    if (!std::isfinite(value)) return "∞";
-    if (value >= 99.95) return fmt::format("{:.0f}", value);
-    if (value >= 9.995) return fmt::format("{:.1f}", value);
-    if (value == 0.0) return "0";
-    return value >= 0.0095 ? fmt::format("{:.2f}", value) : fmt::format("{:.1g}", value);
-}
-
-std::string with_commas(std::uint64_t value) {
-    std::string text = std::to_string(value);
-    for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
-    return text;
-}
 
 std::string plot_svg(const Cell& cell) { return Plot(cell).svg(); }
 

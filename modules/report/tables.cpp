@@ -9,6 +9,8 @@
 #include <gnomon/report/writers.hpp>
 
 #include "internal/json_forms.hpp"
+#include "internal/page_parts.hpp"
+#include "internal/plot.hpp"
 
 namespace gnomon::report {
 
@@ -22,6 +24,22 @@ std::string quoted(const std::string& text) {
         out += c;
     }
     return out + '"';
+}
+
+// What plots need: so that it is decided in one place.
+void add_what_follows(nlohmann::ordered_json& json, const Cell& cell) {
+    const auto names = [&](const std::vector<std::size_t>& rows) {
+        std::vector<std::string> list;
+        for (const std::size_t row : rows) list.push_back(cell.rows[row].technique);
+        return list;
+    };
+    json["front"] = names(pareto_front(cell));
+    json["worth_a_name"] = names(internal::worth_a_name(cell));
+    for (std::size_t i = 0; i < cell.rows.size(); ++i) {
+        if (cell.rows[i].skipped.empty()) {
+            json["rows"][i]["comparable_ms"] = comparable_ms(cell, cell.rows[i]);
+        }
+    }
 }
 
 }  // namespace
@@ -44,7 +62,7 @@ std::string to_csv(const Report& report) {
             }
             const Errors& e = row.errors;
             csv += fmt::format(
-                ",{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{},{:.8f},{},{},{:.8f},{:.4f},"
+                ",{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{},{},{},{},{:.8f},{},{},{:.8f},{:.4f},"
                 "{:.8f},{:.8f},{:.4f},{:.4f},{:.4f}\r\n",
                 row.frame_ms.median, row.frame_ms.p95, row.detect_ms.median, row.build_ms.median,
                 row.record_ms.median, row.upload_bytes, row.layers, e.wrong_median, e.wrong_worst,
@@ -59,7 +77,11 @@ std::string to_csv(const Report& report) {
 
 std::string to_json(const Report& report) {
     nlohmann::ordered_json cells = nlohmann::ordered_json::array();
-    for (const Cell& cell : report.cells) cells.push_back(internal::json_of(cell, false));
+    for (const Cell& cell : report.cells) {
+        auto json = internal::json_of(cell, false);
+        add_what_follows(json, cell);
+        cells.push_back(std::move(json));
+    }
     const nlohmann::ordered_json json{{"version", report.options.version},
                                       {"command", report.command},
                                       {"machine",
@@ -91,8 +113,16 @@ std::vector<std::size_t> pareto_front(const Cell& cell) {
     };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
+    // By luck alone one of many that are as good as "auto" always looks a little faster.
+    const Row* automatic = internal::find_row(cell, "auto");
+    const auto is_like_auto = [&](const Row& row) {
+        return automatic != nullptr && &row != automatic &&
+               row.errors.wrong_worst == automatic->errors.wrong_worst &&
+               row.against_auto.high >= 1.0;
+    };
     std::vector<std::size_t> front;
     for (const std::size_t i : order) {
+        if (is_like_auto(cell.rows[i])) continue;
         if (front.empty() ||
             cell.rows[i].errors.wrong_worst < cell.rows[front.back()].errors.wrong_worst) {
             front.push_back(i);

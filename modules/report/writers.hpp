@@ -28,7 +28,8 @@ namespace gnomon::report {
 [[nodiscard]] double comparable_ms(const Cell& cell, const Row& row);
 
 /// Techniques that nothing else is both faster and less wrong than, fastest first; what was skipped
-/// is in none. Of equals the earlier row.
+/// is in none. Of equals the earlier row. What is as wrong as "auto" and not faster beyond the 95 %
+/// interval counts as slower.
 [[nodiscard]] std::vector<std::size_t> pareto_front(const Cell& cell);
 
 /// Techniques with no more wrong pixels than "auto" that are faster by more than 5 % beyond their

@@ -66,6 +66,14 @@ Report report() {
 
 TEST(Pareto, NothingOnTheFrontIsBeaten) { EXPECT_THAT(pareto_front(cell()), ElementsAre(2U, 0U)); }
 
+TEST(Pareto, WhatCannotBeToldFromAutoDoesNotBeatIt) {
+    Cell c = cell();
+    c.rows[3].against_auto = {0.9, 0.7, 1.1};  // as right, and faster by luck
+    EXPECT_THAT(pareto_front(c), ElementsAre(2U, 0U));
+    c.rows[3].against_auto = {0.9, 0.85, 0.96};
+    EXPECT_THAT(pareto_front(c), ElementsAre(2U, 3U));
+}
+
 TEST(BetterThanAuto, TakesTheWholeIntervalAndNoMoreErrors) {
     Cell c = cell();
     EXPECT_THAT(better_than_auto(c), IsEmpty());
@@ -108,6 +116,11 @@ TEST(Json, HasTheFigures) {
     EXPECT_TRUE(rows.at(2).at("errors").at("edge_displacement_px").is_null());
     EXPECT_EQ(rows.at(5).at("skipped"), "It is <missing>.");
     EXPECT_FALSE(rows.at(0).contains("mask"));
+    EXPECT_EQ(rows.at(4).at("comparable_ms"), 2.5);
+    EXPECT_FALSE(rows.at(5).contains("comparable_ms"));
+    const auto front = nlohmann::json::parse(R"(["quick & wrong", "auto"])");
+    EXPECT_EQ(json.at("cells").at(0).at("front"), front);
+    EXPECT_EQ(json.at("cells").at(0).at("worth_a_name").at(0), "auto");
 }
 
 TEST(Html, NeedsNothingElseAndEscapes) {
@@ -121,6 +134,28 @@ TEST(Html, NeedsNothingElseAndEscapes) {
                               "gnomon report --quick", "<svg", "</html>"}) {
         EXPECT_THAT(page, HasSubstr(there)) << there;
     }
+}
+
+// Times of microseconds, as a graphics chip takes, and of what takes none that a clock can tell.
+TEST(Html, TinyTimesAreWrittenAndDrawn) {
+    Report small = report();
+    for (Row& r : small.cells[0].rows) {
+        r.frame_ms = {0.0123, 0.02, 0.01, 0.03};
+        r.detect_ms = {0.000041, 0.0, 0.0, 0.0};
+        r.record_ms = {1e-7, 0.0, 0.0, 0.0};
+    }
+    const std::string page = to_html(small);
+    for (const char* there : {"<td>0.0123</td>", "<td>0.00004</td>", "auto: 0.0123 ms"}) {
+        EXPECT_THAT(page, HasSubstr(there)) << there;
+    }
+    for (const char* forbidden : {"e-0", "nan", "inf"}) {
+        EXPECT_THAT(page.substr(page.find("<body")), Not(HasSubstr(forbidden))) << forbidden;
+    }
+    EXPECT_THAT(to_csv(small), HasSubstr(",0.012300,0.020000,0.000041,"));
+
+    // Nothing at all was timed: no plot, but a page.
+    for (Row& r : small.cells[0].rows) r.frame_ms = {};
+    EXPECT_THAT(to_html(small), HasSubstr("</html>"));
 }
 
 TEST(Kept, ComesBackAsItWas) {

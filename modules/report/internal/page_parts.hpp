@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gnomon/report/report.hpp>
 
@@ -19,6 +20,12 @@ namespace gnomon::report::internal {
 [[nodiscard]] const Row* find_row(const Cell& cell, std::string_view technique);
 /// The family's least wrong, of equals the faster; null where there is none.
 [[nodiscard]] const Row* least_wrong(const Cell& cell, std::string_view family);
+/// Of all judged pixels: so few that hardly anybody would see them.
+inline constexpr double hardly_wrong = 1e-3;
+/// Places of what a scene's reader would ask for: "auto", the fastest approximation that is hardly
+/// wrong, the fastest and the least wrong map, planar shadows, rays. What was not measured is left
+/// out.
+[[nodiscard]] std::vector<std::size_t> rivals_of_each_kind(const Cell& cell);
 [[nodiscard]] std::string image_html(const Thumbnail& thumbnail, std::string_view alt);
 /// 0.012 %.
 [[nodiscard]] std::string percent(double share);
