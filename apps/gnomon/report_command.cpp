@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -15,15 +14,13 @@
 
 #include <gnomon/report/report.hpp>
 #include <gnomon/report/writers.hpp>
-#include <gnomon/scene/primitives.hpp>
-#include <gnomon/scene/transforms.hpp>
 
 #include <gnomon_revision.hpp>
 
 #include "devices.hpp"
 #include "files.hpp"
 #include "plots.hpp"
-#include "render_setup.hpp"
+#include "report_scenes.hpp"
 
 namespace gnomon::cli {
 
@@ -31,89 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t most_lights = 4;
-
-/// From where a file is looked at, and by which light. Without: as `gnomon render` would.
-struct Look {
-    glm::dvec3 eye{0.0};
-    glm::dvec3 target{0.0};
-    double fovy_deg = 0.0;
-    LightArgument light = {};
-};
-/// A scene of the standard set.
-struct Standard {
-    const char* name;
-    const char* source;  ///< a file: below one of the folders of models
-    report::Kind kind;
-    bool quick = false;
-    std::optional<Look> look = std::nullopt;
-    bool ground = false;  ///< is put below: the model has none
-};
-// The camera stands where a player would, the sun where it throws long shadows.
-constexpr Standard standard_set[] = {
-    {"room", "builtin:room", report::Kind::Indoor, true},
-    {"duplex-house", "scenes/duplex-house.glb", report::Kind::Indoor, false,
-     Look{{-4.0, 1.7, 3.0}, {-4.0, 0.8, 10.0}, 70.0, {false, {-4.0, 2.2, 6.0}}}},
-    {"godot-room", "scenes/godot-room.glb", report::Kind::Indoor, false,
-     Look{{4.3, 1.7, 1.3}, {-2.0, 1.0, -1.3}, 70.0, {false, {1.5, 4.3, 2.2}}}},
-    {"pillars", "builtin:pillars", report::Kind::Outdoor, true},
-    {"linz-old-town", "scenes/linz-old-town.glb", report::Kind::Outdoor, false,
-     Look{{-150.0, 70.0, 260.0}, {20.0, 5.0, 40.0}, 50.0, {true, {-1.0, -0.9, -0.6}}}},
-    {"knot", "builtin:knot", report::Kind::Hero, true},
-    {"engine", "glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb", report::Kind::Hero, false,
-     std::nullopt, true},
-    {"flight-helmet", "props/flight-helmet.glb", report::Kind::Hero, false, std::nullopt, true},
-    {"open-shapes", "builtin:open-shapes", report::Kind::Other},
-    {"still-life", "builtin:still-life", report::Kind::Other},
-};
-constexpr const char* model_folders[] = {"/usr/share/assimp/models", "../shared/models"};
-
-struct Wanted {
-    std::string name;
-    std::string source;
-    report::Kind kind = report::Kind::Other;
-    std::optional<Look> look = std::nullopt;
-    bool ground = false;
-};
-
-std::vector<Wanted> standard_scenes(bool quick) {
-    std::vector<Wanted> scenes;
-    for (const Standard& standard : standard_set) {
-        if (quick && !standard.quick) continue;
-        const std::string source = standard.source;
-        if (source.starts_with("builtin:")) {
-            scenes.push_back({standard.name, source, standard.kind, {}, false});
-            continue;
-        }
-        for (const char* folder : model_folders) {
-            std::error_code error;
-            const fs::path file = fs::path(folder) / source;
-            if (!fs::is_regular_file(file, error)) continue;
-            scenes.push_back(
-                {standard.name, file.string(), standard.kind, standard.look, standard.ground});
-            break;
-        }
-    }
-    return scenes;
-}
-
-std::vector<Wanted> given_scenes(const std::vector<std::string>& sources) {
-    std::vector<Wanted> scenes;
-    std::set<std::string> taken;
-    for (const std::string& source : sources) {
-        std::string name =
-            source.starts_with("builtin:") ? source.substr(8) : fs::path(source).stem().string();
-        report::Kind kind = report::Kind::Other;
-        for (const Standard& standard : standard_set) {
-            if (source == standard.source) kind = standard.kind;
-        }
-        const std::string stem = name;
-        for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{} ({})", stem, i);
-        scenes.push_back({std::move(name), source, kind, {}, false});
-    }
-    return scenes;
-}
 
 // Any other program may measure otherwise.
 std::string build_of_this_program() {
@@ -128,44 +42,6 @@ std::string build_of_this_program() {
         }
     }
     return fmt::format("{:016x}", hash);
-}
-
-// So much larger than the model that its border is out of sight, and just below it.
-void put_on_ground(Shot& shot) {
-    const double size_m = 8.0 * shot.bounds.diagonal();
-    const glm::dvec3 middle = shot.bounds.center();
-    const double height_m = shot.bounds.min.y - 1e-3 * shot.bounds.diagonal();
-    const scene::Entity ground =
-        shot.scene.create_node("ground", {.translation = {middle.x, height_m, middle.z}});
-    scene::Registry& registry = shot.scene.registry;
-    registry.emplace<scene::MeshInstance>(
-        ground, std::make_shared<const scene::Mesh>(
-                    scene::make_plane(static_cast<float>(size_m), static_cast<float>(size_m))));
-    registry.emplace<scene::Receiver>(ground);
-    scene::update_world_transforms(registry);
-}
-
-Result<report::Subject> load_subject(const Wanted& wanted, const report::Options& options) {
-    RenderOptions shown{.scene = wanted.source, .size = {options.width, options.height}};
-    if (wanted.look) {
-        shown.eye = wanted.look->eye;
-        shown.target = wanted.look->target;
-        shown.fovy_deg = wanted.look->fovy_deg;
-        shown.lights = {wanted.look->light};
-    }
-    auto shot = make_shot(shown);
-    if (!shot) return forward_error(shot);
-    if (wanted.ground) put_on_ground(*shot);
-    report::Subject subject;
-    subject.name = wanted.name;
-    subject.source = wanted.source;
-    subject.kind = wanted.kind;
-    subject.scene = std::move(shot->scene);
-    subject.camera = shot->camera;
-    subject.world_from_camera = shot->world_from_camera;
-    subject.near_m = shot->near_m;
-    report::keep_lights(subject, options, most_lights);
-    return subject;
 }
 
 std::string text_of(const fs::path& path) {
@@ -187,12 +63,12 @@ public:
     Status finish();
 
 private:
-    Status measure_one(const Wanted& wanted, gpu::Device& device, double begins, double share);
+    Status measure_one(const WantedScene& wanted, gpu::Device& device, double begins, double share);
     void tell(double done, const std::string& what);
 
     const ReportOptions& options_;
     report::Report report_;
-    std::vector<Wanted> scenes_;
+    std::vector<WantedScene> scenes_;
     std::vector<std::pair<std::string, gpu::Device>> devices_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_told_{};
@@ -230,8 +106,17 @@ Status ReportRun::prepare() {
     if (const Status writable = check_writable(options_.out / "report.html"); !writable) {
         return writable;
     }
-    scenes_ =
-        options_.scenes.empty() ? standard_scenes(options_.quick) : given_scenes(options_.scenes);
+    scenes_ = options_.scenes.empty() ? standard_scenes(options_.quick, report_.left_out)
+                                      : given_scenes(options_.scenes);
+    // Whoever asks for a first look knows that it is one.
+    if (!options_.quiet && !options_.quick && !report_.left_out.empty()) {
+        std::string list;
+        for (const report::LeftOut& scene : report_.left_out) {
+            list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", scene.scene, scene.source);
+        }
+        fmt::print(stderr, "Left out of the standard set, since {}: {}.\n",
+                   report_.left_out.front().reason, list);
+    }
     const std::vector<std::string> backends =
         options_.backends.empty() ? std::vector<std::string>{""} : options_.backends;
     for (const std::string& backend : backends) {
@@ -269,7 +154,7 @@ void ReportRun::tell(double done, const std::string& what) {
     std::fflush(stderr);
 }
 
-Status ReportRun::measure_one(const Wanted& wanted, gpu::Device& device, double begins,
+Status ReportRun::measure_one(const WantedScene& wanted, gpu::Device& device, double begins,
                               double share) {
     auto subject = load_subject(wanted, report_.options);
     if (!subject) return forward_error(subject);
@@ -301,7 +186,7 @@ Status ReportRun::measure_one(const Wanted& wanted, gpu::Device& device, double 
 Status ReportRun::measure_all() {
     const double share = 1.0 / static_cast<double>(scenes_.size() * devices_.size());
     double begins = 0.0;
-    for (const Wanted& wanted : scenes_) {
+    for (const WantedScene& wanted : scenes_) {
         for (auto& [name, device] : devices_) {
             if (const Status done = measure_one(wanted, device, begins, share); !done) return done;
             begins += share;

@@ -3,6 +3,7 @@
 // The page: for a reader who knows nothing of gnomon. First what to use, then how it was measured,
 // then every figure.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -158,6 +159,24 @@ std::string glossary(const Report& report) {
     return text + "</table></div>\n";
 }
 
+// One line for those with one reason.
+std::string left_out(const Report& report) {
+    if (report.left_out.empty()) return {};
+    std::map<std::string, std::string> by_reason;
+    for (const LeftOut& scene : report.left_out) {
+        std::string& scenes = by_reason[scene.reason];
+        scenes += fmt::format("{}<b>{}</b> (<code>{}</code>)", scenes.empty() ? "" : ", ",
+                              escaped(scene.scene), escaped(scene.source));
+    }
+    std::string text =
+        "<h2>What was left out</h2>\n<p>Scenes of the standard set that are not on this page:</p>"
+        "\n<ul>\n";
+    for (const auto& [reason, scenes] : by_reason) {
+        text += fmt::format("<li>{}: {}.</li>\n", scenes, escaped(reason));
+    }
+    return text + "</ul>\n";
+}
+
 }  // namespace
 
 std::string to_html(const Report& report) {
@@ -174,7 +193,7 @@ std::string to_html(const Report& report) {
         report.machine.cores, escaped(report.machine.system), escaped(report.command));
     page += internal::advice_html(report) + against_auto(report) + how_to_read(report);
     for (const Cell& cell : report.cells) page += internal::cell_html(cell);
-    page += glossary(report);
+    page += glossary(report) + left_out(report);
     return page + "</body></html>\n";
 }
 

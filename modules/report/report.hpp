@@ -144,11 +144,19 @@ struct Machine {
 };
 [[nodiscard]] Machine this_machine();
 
+/// A scene that a reader would look for.
+struct LeftOut {
+    std::string scene;
+    std::string source;
+    std::string reason;  ///< a clause: no capital, no full stop
+};
+
 struct Report {
     Options options;
     Machine machine;
     std::string command;
     std::vector<Cell> cells;
+    std::vector<LeftOut> left_out = {};
 };
 
 /// Steps done and to do, and what is being done.

@@ -82,6 +82,11 @@ std::string to_json(const Report& report) {
         add_what_follows(json, cell);
         cells.push_back(std::move(json));
     }
+    nlohmann::ordered_json left_out = nlohmann::ordered_json::array();
+    for (const LeftOut& scene : report.left_out) {
+        left_out.push_back(
+            {{"scene", scene.scene}, {"source", scene.source}, {"reason", scene.reason}});
+    }
     const nlohmann::ordered_json json{{"version", report.options.version},
                                       {"command", report.command},
                                       {"machine",
@@ -93,6 +98,7 @@ std::string to_json(const Report& report) {
                                       {"frames", report.options.frames},
                                       {"rounds", report.options.rounds},
                                       {"degrees_per_frame", report.options.degrees_per_frame},
+                                      {"left_out", left_out},
                                       {"cells", cells}};
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // gnomon report as a user runs it: files, resumption, refusals.
+#include <set>
+
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.hpp"
@@ -70,6 +72,38 @@ TEST_F(ReportCommand, ARepeatedRunMeasuresNothingAndAnInterruptedOneGoesOn) {
     // Other arguments are another measurement.
     run_well(small({"builtin:pillars", "--technique", "planar"}));
     EXPECT_EQ(kept().size(), 4U);
+}
+
+TEST_F(ReportCommand, SaysWhichScenesOfTheStandardSetAreNotThere) {
+    if (!draws_at_all()) GTEST_SKIP() << "no backend draws here";
+    const auto standard = [&](const Arguments& more) {
+        return joined({"report", "--out", "r", "--size", "32x18", "--frames", "2", "--rounds", "1",
+                       "--technique", "auto"},
+                      more);
+    };
+    const Outcome outcome = run(standard({}));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    const std::string note = outcome.errors.substr(0, outcome.errors.find('\n'));
+    EXPECT_THAT(note, testing::StartsWith("Left out of the standard set, since neither"));
+    EXPECT_THAT(note, HasSubstr("duplex-house (scenes/duplex-house.glb)"));
+    const auto scene_names = [](const nlohmann::json& list) {
+        std::set<std::string> names;
+        for (const auto& entry : list) names.insert(entry.at("scene"));
+        return names;
+    };
+    const auto json = nlohmann::json::parse(read("r/report.json"));
+    const auto left_out = scene_names(json.at("left_out"));
+    const auto measured = scene_names(json.at("cells"));
+    EXPECT_TRUE(left_out.contains("duplex-house"));
+    EXPECT_TRUE(measured.contains("room"));
+    EXPECT_EQ(left_out.size() + measured.size(), 10U);
+    EXPECT_THAT(read("r/report.html"), HasSubstr("<code>scenes/duplex-house.glb</code>"));
+
+    // A first look is asked for, and says nothing; its page does.
+    run_well(standard({"--quick", "--quiet"}));
+    const auto quick = nlohmann::json::parse(read("r/report.json"));
+    EXPECT_EQ(scene_names(quick.at("cells")), (std::set<std::string>{"room", "pillars", "knot"}));
+    EXPECT_THAT(quick.at("left_out").at(0).at("reason"), HasSubstr("--quick"));
 }
 
 TEST_F(ReportCommand, ListsTechniques) {
