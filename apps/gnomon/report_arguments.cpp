@@ -83,7 +83,8 @@ const CLI::App* add_report(CLI::App& app, ReportOptions& o, bool& list_technique
     report
         ->add_option("--rounds", o.rounds,
                      "How often each technique draws the motion, in turn with the others; default "
-                     "5, with --quick 3")
+                     "5, with --quick 3, and more where frames are so short that a scene's take "
+                     "less than 5 s, with --quick 1 s")
         ->check(CLI::Range(1, 1000));
     report
         ->add_option("--frames", o.frames,

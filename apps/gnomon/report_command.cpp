@@ -85,6 +85,7 @@ Status ReportRun::prepare() {
     o.width = size.width;
     o.height = size.height;
     o.rounds = options_.rounds.value_or(options_.quick ? 3 : 5);
+    if (!options_.rounds) o.least_seconds = options_.quick ? 1.0 : 5.0;
     // Far enough for each tolerance to be used up.
     o.frames = options_.frames.value_or(options_.quick ? 4 : 12);
     o.only = options_.techniques;
@@ -135,7 +136,7 @@ Status ReportRun::prepare() {
         std::string name = device->caps().backend;
         devices_.emplace_back(std::move(name), std::move(*device));
     }
-    report_.machine = report::this_machine();
+    report_.machine = machine::this_machine();
     report_.command = options_.command;
     return {};
 }
@@ -158,8 +159,8 @@ Status ReportRun::measure_one(const WantedScene& wanted, gpu::Device& device, do
                               double share) {
     auto subject = load_subject(wanted, report_.options);
     if (!subject) return forward_error(subject);
-    const std::string key =
-        report::cell_key(*subject, report_.options, device.caps().backend, device.caps().adapter);
+    const std::string key = report::cell_key(*subject, report_.options, report_.machine,
+                                             device.caps().backend, device.caps().adapter);
     const fs::path kept = options_.out / "cells" / (key + ".json");
     std::error_code error;
     if (fs::is_regular_file(kept, error)) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <gnomon/report/writers.hpp>
 
@@ -199,14 +200,23 @@ bool draws_in_software(std::string_view adapter) {
 
 std::string advice_html(const Report& report) {
     std::string text = "<h2>What to use</h2>\n";
-    const bool software = std::ranges::any_of(
-        report.cells, [](const Cell& cell) { return draws_in_software(cell.adapter); });
+    std::set<std::string> software;
+    std::set<std::string> all;
+    for (const Cell& cell : report.cells) {
+        all.insert(cell.backend);
+        if (draws_in_software(cell.adapter)) software.insert(cell.backend);
+    }
     text += fmt::format(
         "<p class=\"small\">Milliseconds are those of this machine{}; on another one, measure "
         "again, by one command. Errors hardly depend on the machine.</p>\n",
-        software ? ", where no graphics chip but a program on the processor draws. It fills pixels "
-                   "slowly, so that large shadow maps look dearer than they are on a graphics chip"
-                 : "");
+        software.empty()
+            ? std::string()
+            : fmt::format(", where no graphics chip but a program on the processor draws{}. It "
+                          "fills pixels slowly, so that large shadow maps look dearer than they "
+                          "are on a graphics chip",
+                          software.size() < all.size()
+                              ? fmt::format(" on {}", fmt::join(software, " and "))
+                              : std::string()));
     text += "<div class=\"cards\">\n";
     for (const Place& place : places) {
         Cells cells;

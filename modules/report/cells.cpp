@@ -157,9 +157,11 @@ std::string base64(const std::vector<std::byte>& bytes) {
 Json json_of(const Cell& cell, bool with_thumbnails) {
     Json rows = Json::array();
     for (const Row& row : cell.rows) rows.push_back(json_of(row, with_thumbnails));
-    Json json{{"scene", cell.scene},     {"source", cell.source},   {"kind", to_string(cell.kind)},
-              {"backend", cell.backend}, {"adapter", cell.adapter}, {"triangles", cell.triangles},
-              {"casters", cell.casters}, {"lights", cell.lights},   {"rounds", cell.rounds},
+    Json json{{"scene", cell.scene},          {"source", cell.source},
+              {"kind", to_string(cell.kind)}, {"backend", cell.backend},
+              {"adapter", cell.adapter},      {"triangles", cell.triangles},
+              {"casters", cell.casters},      {"lights", cell.lights},
+              {"rounds", cell.rounds},        {"empty_frame_ms", cell.empty_frame_ms},
               {"notes", cell.notes}};
     if (with_thumbnails) json["truth"] = json_of(cell.truth);
     json["rows"] = std::move(rows);
@@ -189,6 +191,7 @@ Result<Cell> cell_from_json(const std::string& text) {
         cell.casters = json.at("casters");
         cell.lights = json.at("lights");
         cell.rounds = json.at("rounds");
+        cell.empty_frame_ms = json.at("empty_frame_ms");
         cell.notes = json.at("notes").get<std::vector<std::string>>();
         cell.truth = internal::thumbnail_from(json.at("truth"));
         for (const auto& row : json.at("rows")) cell.rows.push_back(internal::row_from(row));
@@ -250,9 +253,13 @@ void add_scene(Hash& hash, const scene::Scene& scene) {
 
 }  // namespace
 
-std::string cell_key(const Subject& subject, const Options& options, const std::string& backend,
+std::string cell_key(const Subject& subject, const Options& options,
+                     const machine::Machine& machine, const std::string& backend,
                      const std::string& adapter) {
     Hash hash;
+    hash.text(machine.processor);
+    hash.value(machine.cores);
+    hash.text(machine.system);
     hash.text(options.version);
     hash.text(options.build);
     hash.text(backend);
@@ -270,6 +277,7 @@ std::string cell_key(const Subject& subject, const Options& options, const std::
     hash.value(options.width);
     hash.value(options.height);
     hash.value(options.rounds);
+    hash.value(options.least_seconds);
     hash.value(options.frames);
     hash.value(options.degrees_per_frame);
     hash.value(options.quick);

@@ -49,15 +49,18 @@ private:
     double time_alone(Contender& contender);
     void time_beside_auto(Contender& contender, std::uint32_t round);
     void play_round(std::uint32_t round);
+    void play_rounds();
+    void time_nothing();
     void finish(Contender& contender);
     void tell(std::string what, double weight) {
         done_ += weight;
         if (progress_) progress_({std::min(1.0, done_ / all_), std::move(what)});
     }
-    // What fails is left out from then on, and says why.
-    static void drop(Contender& contender, const Error& error) {
+    // What fails is left out from then on, and says why. Without the device all would.
+    void drop(Contender& contender, const Error& error) {
         contender.row.skipped = error.message;
         contender.technique.reset();
+        if (error.code == ErrorCode::DeviceLost) lost_ = error;
     }
 
     gpu::Device& device_;
@@ -70,6 +73,9 @@ private:
     std::vector<Contender> contenders_;
     std::uint64_t wrong_of_auto_ = 0;  // over all frames
     std::uint64_t edge_on_of_auto_ = 0;
+    std::uint32_t rounds_ = 0;
+    double empty_frame_ms_ = 0.0;
+    std::optional<Error> lost_;
     double done_ = 0.0;
     double all_ = 1.0;
 };
@@ -214,8 +220,11 @@ void Measuring::play_round(std::uint32_t round) {
     const double of_auto = time_alone(automatic);
     for (std::size_t i = 0; i < contenders_.size(); ++i) {
         Contender& contender = contenders_[i];
-        tell(fmt::format("round {} of {}: {}", round + 1, options_.rounds, contender.row.technique),
-             1.0);
+        const bool is_extra = round >= options_.rounds;
+        tell(fmt::format("round {}{}: {}", round + 1,
+                         is_extra ? "" : fmt::format(" of {}", options_.rounds),
+                         contender.row.technique),
+             is_extra ? 0.0 : 1.0);
         if (i == 0 || !contender.technique) continue;
         if (automatic.technique &&
             contender.row.errors.wrong_worst <= automatic.row.errors.wrong_worst) {
@@ -231,6 +240,30 @@ void Measuring::play_round(std::uint32_t round) {
         contender.paired_ms.push_back(time_alone(contender));
         contender.paired_ms_of_auto.push_back(of_auto);
     }
+}
+
+void Measuring::play_rounds() {
+    const auto start = Clock::now();
+    for (rounds_ = 0; rounds_ < 10 * options_.rounds && !lost_; ++rounds_) {
+        if (rounds_ >= options_.rounds &&
+            milliseconds_since(start) >= 1000.0 * options_.least_seconds) {
+            break;
+        }
+        play_round(rounds_);
+    }
+}
+
+void Measuring::time_nothing() {
+    std::vector<double> times;
+    for (int i = 0; i < 30; ++i) {
+        const auto start = Clock::now();
+        if (const Status drawn = stage_->draw_nothing(); !drawn) {
+            if (drawn.error().code == ErrorCode::DeviceLost) lost_ = drawn.error();
+            return;
+        }
+        if (i >= 10) times.push_back(milliseconds_since(start));
+    }
+    empty_frame_ms_ = spread_of(times).median;
 }
 
 void Measuring::finish(Contender& contender) {
@@ -280,9 +313,9 @@ Result<Cell> Measuring::run() {
         tell("judging " + contender.row.technique, 1.0);
         if (contender.technique) judge(contender);
     }
-    for (std::uint32_t round = 0; round < options_.rounds; ++round) {
-        play_round(round);
-    }
+    play_rounds();
+    time_nothing();
+    if (lost_) return tl::unexpected(*lost_);
     Cell cell;
     cell.scene = subject_.name;
     cell.source = subject_.source;
@@ -290,7 +323,8 @@ Result<Cell> Measuring::run() {
     cell.backend = device_.caps().backend;
     cell.adapter = device_.caps().adapter;
     cell.lights = first.lights.size();
-    cell.rounds = options_.rounds;
+    cell.rounds = rounds_;
+    cell.empty_frame_ms = empty_frame_ms_;
     cell.notes = subject_.notes;
     if (edge_on_of_auto_ > 0) {
         cell.notes.push_back(fmt::format(

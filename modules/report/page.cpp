@@ -127,8 +127,9 @@ at {}×{} pixels. Each mask is held against the truth, which is traced in double
 pixel of its centre; all others lie on the very edge of a shadow, in the <b>band</b>, where two
 rasterisers may rightly differ.</p>
 <p>A <b>millisecond</b> counts from the poses to finished masks: finding out what changed, uploading, the
-depth of the scene, the shadows. No shading, which would be the same for all. Techniques took turns for {}
-round{}, so that what slows the machine down slows all of them; what is wrong and more than three times
+depth of the scene, the shadows. No shading, which would be the same for all. What is drawn is waited for:
+how long an empty frame takes stands with each scene, and is part of every time. Techniques took turns for at
+least {} round{}, so that what slows the machine down slows all of them; what is wrong and more than three times
 as slow as <code>auto</code> was left out after three. Plots show what a
 technique took beside <code>auto</code>: its ratio times auto’s median. Left of their coloured line is what
 is faster than <code>auto</code>. On their dashed line, marked ◆ in the tables, is what nothing else beats in both;

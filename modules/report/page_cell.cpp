@@ -105,10 +105,14 @@ std::string ratio_text(const Ratio& ratio) {
 std::string cell_html(const Cell& cell) {
     std::string text = fmt::format(
         "<h2>{} on {}</h2>\n<p class=\"small\">{} · {} triangles, {} caster{}, {} light{} · "
-        "{}</p>\n",
+        "{} · {} round{}{}</p>\n",
         escaped(cell.scene), escaped(cell.backend), escaped(cell.source),
         with_commas(cell.triangles), with_commas(cell.casters), cell.casters == 1 ? "" : "s",
-        cell.lights, cell.lights == 1 ? "" : "s", escaped(cell.adapter));
+        cell.lights, cell.lights == 1 ? "" : "s", escaped(cell.adapter), cell.rounds,
+        cell.rounds == 1 ? "" : "s",
+        cell.empty_frame_ms > 0.0
+            ? fmt::format(" · an empty frame: {} ms", three_digits(cell.empty_frame_ms))
+            : std::string());
     for (const std::string& note : cell.notes) {
         text += fmt::format("<p class=\"small\">{}</p>\n", escaped(note));
     }

@@ -46,6 +46,7 @@ private:
     RTCScene receivers_ = nullptr;
     RTCScene casters_ = nullptr;
     Masks masks_;
+    std::uint32_t threads_ = machine::usable_cores();
 };
 
 Status Rays::add(const scene::Registry& registry, scene::Entity entity,
@@ -173,7 +174,7 @@ Result<FrameCost> Rays::frame(const Moment& moment, bool /*look*/) {
         }
     };
     std::vector<std::thread> others;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(work);
+    for (unsigned i = 1; i < threads_; ++i) others.emplace_back(work);
     work();
     for (std::thread& other : others) other.join();
     FrameCost cost;

@@ -20,6 +20,7 @@
 
 #include <gnomon/core/result.hpp>
 #include <gnomon/gpu/device.hpp>
+#include <gnomon/machine/machine.hpp>
 #include <gnomon/scene/scene.hpp>
 #include <gnomon/truth/truth.hpp>
 
@@ -44,7 +45,10 @@ struct Subject {
 struct Options {
     std::uint32_t width = 640;
     std::uint32_t height = 360;
-    std::uint32_t rounds = 5;            ///< each draws all frames with every technique once
+    std::uint32_t rounds = 5;  ///< each draws all frames with every technique once
+    /// Frames of a fast device are short, and intervals wide: more rounds, up to ten times as
+    /// many, until so much time was spent on timing. 0: none.
+    double least_seconds = 0.0;
     std::uint32_t frames = 8;            ///< of the motion; all of them are judged
     double degrees_per_frame = 0.5;      ///< by which lights turn about the scene's middle
     bool quick = false;                  ///< the few techniques that a first look needs
@@ -131,18 +135,14 @@ struct Cell {
     std::uint64_t triangles = 0;
     std::uint64_t casters = 0;
     std::uint64_t lights = 0;
-    std::uint32_t rounds = 0;
+    std::uint32_t rounds = 0;  ///< that were played
+    /// What clearing a mask and waiting for the device takes, median: part of every time of what
+    /// is drawn. 0 where it failed.
+    double empty_frame_ms = 0.0;
     Thumbnail truth;
     std::vector<std::string> notes;
     std::vector<Row> rows;
 };
-
-struct Machine {
-    std::string processor;
-    std::uint32_t cores = 0;
-    std::string system;
-};
-[[nodiscard]] Machine this_machine();
 
 /// A scene that a reader would look for.
 struct LeftOut {
@@ -153,7 +153,7 @@ struct LeftOut {
 
 struct Report {
     Options options;
-    Machine machine;
+    machine::Machine machine;
     std::string command;
     std::vector<Cell> cells;
     std::vector<LeftOut> left_out = {};
@@ -168,7 +168,8 @@ struct Progress {
 /// One cell: every technique, `options.rounds` times in turn. The subject's lights are turned, and
 /// are as they were in the end. Fails for a scene without lights or
 /// with nothing in it, and as the device does; a technique that the device cannot draw is a row
-/// that says so. Cost: what it measures, and the truth: some seconds a light and frame.
+/// that says so; a device that is lost fails. Cost: what it measures, and the truth: some seconds a
+/// light and frame.
 [[nodiscard]] Result<Cell> measure(gpu::Device& device, Subject& subject, const Options& options,
                                    const std::function<void(const Progress&)>& progress = {});
 
@@ -179,8 +180,10 @@ struct Progress {
 /// seconds. Says so in the notes.
 void keep_lights(Subject& subject, const Options& options, std::size_t most);
 
-/// What a cell is kept under: a hash of all that determines it, 16 hexadecimal digits.
+/// What a cell is kept under: a hash of all that determines it, program and machine included; 16
+/// hexadecimal digits.
 [[nodiscard]] std::string cell_key(const Subject& subject, const Options& options,
-                                   const std::string& backend, const std::string& adapter);
+                                   const machine::Machine& machine, const std::string& backend,
+                                   const std::string& adapter);
 
 }  // namespace gnomon::report

@@ -212,6 +212,19 @@ void Stage::record_depth(gpu::CommandEncoder& encoder, gpu::RenderPipelineId pip
     }
 }
 
+Status Stage::draw_nothing() {
+    auto encoder = device_->create_command_encoder("nothing");
+    {
+        auto pass = encoder.begin_render_pass(
+            {.label = "nothing",
+             .color_attachments = {{.texture = masks_[0], .load_op = gpu::LoadOp::Clear}}});
+    }
+    auto commands = encoder.finish();
+    if (!commands) return forward_error(commands);
+    if (const Status done = device_->submit(*commands); !done) return done;
+    return device_->wait_idle();
+}
+
 Result<std::vector<std::vector<std::uint8_t>>> Stage::read_masks(std::size_t lights) {
     std::vector<std::vector<std::uint8_t>> masks;
     for (std::size_t i = 0; i < lights; ++i) {

@@ -164,7 +164,7 @@ void add_baselines(Table& table) {
                              true, create_planar});
     table.entries.push_back({"ray casting", "rays",
                              "Two rays a pixel on the processor, by Embree; its search trees were "
-                             "built before.",
+                             "built before, and its masks stay in main memory.",
                              "Where a program on the processor draws, two rays a pixel may cost "
                              "less than filling volumes; its search trees were built before and "
                              "stand still, as they could not for what moves.",

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <gnomon/gpu/fault_backend.hpp>
+#include <gnomon/gpu/null_backend.hpp>
 #include <gnomon/report/writers.hpp>
 
 #include "internal/technique.hpp"
@@ -40,6 +42,7 @@ const Row& row_of(const Cell& cell, std::string_view technique) {
 // All that does not depend on the clock.
 nlohmann::json errors_in(const Cell& cell) {
     auto json = nlohmann::json::parse(cell_to_json(cell));
+    json.erase("empty_frame_ms");
     for (auto& row : json.at("rows")) {
         for (const char* clock :
              {"frame_ms", "detect_ms", "build_ms", "record_ms", "against_auto"}) {
@@ -109,6 +112,24 @@ TEST_P(Measure, TheSameFiguresComeOutTwice) {
     EXPECT_EQ(errors_in(measured(some)), errors_in(measured(some)));
 }
 
+TEST_P(Measure, ShortFramesGetMoreRounds) {
+    Options options = small_options();
+    options.only = {"depth-fail"};
+    Subject subject = torus_over_floor();
+    const Cell few = gnomon::test::must(measure(device(), subject, options));
+    EXPECT_EQ(few.rounds, 1U);
+    options.least_seconds = 1e9;  // never enough, but there is an end
+    const Cell many = gnomon::test::must(measure(device(), subject, options));
+    EXPECT_EQ(many.rounds, 10U);
+    EXPECT_EQ(few.rows[0].errors.wrong_at_all_worst, many.rows[0].errors.wrong_at_all_worst);
+    options.least_seconds = 1e-9;  // the rounds that were asked for are enough
+    EXPECT_EQ(gnomon::test::must(measure(device(), subject, options)).rounds, 1U);
+    for (const Cell* cell : {&few, &many}) {
+        EXPECT_GT(cell->empty_frame_ms, 0.0);
+        EXPECT_LT(cell->empty_frame_ms, row_of(*cell, "auto").frame_ms.high);
+    }
+}
+
 TEST_P(Measure, LightsAreLeftAsTheyWere) {
     Subject subject = torus_over_floor();
     const auto lights = [&] {
@@ -151,23 +172,61 @@ TEST_P(Measure, WhatCannotBeMeasuredIsSaid) {
     EXPECT_THAT(refusal(std::move(empty)), HasSubstr("there is nothing in the scene"));
 }
 
+// A cell without half of its techniques would be kept, and taken over ever after.
+TEST(LostDevice, IsNoCell) {
+    Options options = small_options();
+    options.only = {"depth-fail", "planar"};
+    Subject subject = torus_over_floor();
+    gpu::FaultPlan plan;
+    gpu::Device device(gpu::create_fault_backend(gpu::create_null_backend(), plan));
+    ASSERT_TRUE(measure(device, subject, options));
+    const std::size_t calls = plan.calls;
+    for (const double when : {0.3, 0.5, 0.7, 0.9}) {
+        plan = {.fail_at = static_cast<std::size_t>(when * static_cast<double>(calls)),
+                .code = ErrorCode::DeviceLost};
+        const auto cell = measure(device, subject, options);
+        ASSERT_FALSE(cell) << when;
+        EXPECT_EQ(cell.error().code, ErrorCode::DeviceLost) << when;
+    }
+    // Whatever else fails is a row that says so.
+    plan = {.fail_at = calls / 2};
+    const auto cell = measure(device, subject, options);
+    ASSERT_TRUE(cell) << cell.error().message;
+    EXPECT_EQ(
+        std::ranges::count_if(cell->rows, [](const Row& row) { return !row.skipped.empty(); }), 1);
+}
+
 TEST(CellKey, ChangesWithWhatDeterminesACell) {
     const Subject subject = torus_over_floor();
     const Options options = small_options();
-    const std::string key = cell_key(subject, options, "gl", "an adapter");
+    const machine::Machine here{.processor = "a processor", .cores = 2, .system = "a system"};
+    const std::string key = cell_key(subject, options, here, "gl", "an adapter");
     EXPECT_EQ(key.size(), 16U);
-    EXPECT_EQ(cell_key(torus_over_floor(), options, "gl", "an adapter"), key);
-    EXPECT_NE(cell_key(subject, options, "vk", "an adapter"), key);
-    EXPECT_NE(cell_key(subject, options, "gl", "another"), key);
+    EXPECT_EQ(cell_key(torus_over_floor(), options, here, "gl", "an adapter"), key);
+    EXPECT_NE(cell_key(subject, options, here, "vk", "an adapter"), key);
+    EXPECT_NE(cell_key(subject, options, here, "gl", "another"), key);
     Options other = options;
     other.rounds = 2;
-    EXPECT_NE(cell_key(subject, other, "gl", "an adapter"), key);
+    EXPECT_NE(cell_key(subject, other, here, "gl", "an adapter"), key);
+    // Another commit, another build of it, and any other machine.
+    for (const machine::Machine& elsewhere :
+         {machine::Machine{.processor = "another", .cores = 2, .system = "a system"},
+          machine::Machine{.processor = "a processor", .cores = 16, .system = "a system"},
+          machine::Machine{.processor = "a processor", .cores = 2, .system = "another"}}) {
+        EXPECT_NE(cell_key(subject, options, elsewhere, "gl", "an adapter"), key);
+    }
+    other = options;
+    other.build = "another";
+    EXPECT_NE(cell_key(subject, other, here, "gl", "an adapter"), key);
+    other = options;
+    other.least_seconds = 1.0;
+    EXPECT_NE(cell_key(subject, other, here, "gl", "an adapter"), key);
     other = options;
     other.version = "next";
-    EXPECT_NE(cell_key(subject, other, "gl", "an adapter"), key);
+    EXPECT_NE(cell_key(subject, other, here, "gl", "an adapter"), key);
     Subject moved = torus_over_floor();
     moved.world_from_camera[3].x += 1e-9;
-    EXPECT_NE(cell_key(moved, options, "gl", "an adapter"), key);
+    EXPECT_NE(cell_key(moved, options, here, "gl", "an adapter"), key);
 }
 
 }  // namespace

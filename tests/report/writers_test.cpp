@@ -41,6 +41,7 @@ Cell cell() {
     cell.triangles = 12345;
     cell.lights = 1;
     cell.rounds = 3;
+    cell.empty_frame_ms = 0.012;
     cell.truth = {2, 1, {std::byte{9}}};
     cell.notes = {"A <note>."};
     cell.rows = {row("auto", 2.0, 0), row("slower", 3.0, 0), row("quick & wrong", 1.0, 70),
@@ -58,7 +59,7 @@ Cell cell() {
 Report report() {
     Report report;
     report.options.version = "1.2.3";
-    report.machine = {"A <processor>", 2, "A system"};
+    report.machine = {.processor = "A <processor>", .cores = 2, .system = "A system"};
     report.command = "gnomon report --quick";
     report.cells = {cell()};
     return report;

@@ -91,6 +91,9 @@ public:
         return {.array_stride = 12, .attributes = {{.shader_location = 0}}};
     }
 
+    /// Clears a mask and waits: what a frame takes in which nothing is drawn.
+    [[nodiscard]] Status draw_nothing();
+
     /// The masks as they are: one byte a pixel, 0 where lit.
     [[nodiscard]] Result<std::vector<std::vector<std::uint8_t>>> read_masks(std::size_t lights);
 
