@@ -203,6 +203,8 @@ Result<std::unique_ptr<Context>> create_context(Renderers renderers) {
         egl.get_proc_address("eglGetPlatformDisplayEXT"));
     egl.query_devices =
         reinterpret_cast<decltype(egl.query_devices)>(egl.get_proc_address("eglQueryDevicesEXT"));
+    egl.query_device_string = reinterpret_cast<decltype(egl.query_device_string)>(
+        egl.get_proc_address("eglQueryDeviceStringEXT"));
     if (egl.get_platform_display == nullptr) {
         return fail(ErrorCode::Unsupported, "EGL lacks eglGetPlatformDisplayEXT.");
     }

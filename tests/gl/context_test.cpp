@@ -109,6 +109,20 @@ INSTANTIATE_TEST_SUITE_P(Platforms, Contexts,
                                          ContextCase{"gl_egl", gl::create_egl_context, "EGL"}),
                          [](const auto& info) { return std::string(info.param.device_name); });
 
+TEST(HeadlessContext, IsOfHardwareOrElseOsmesas) {
+    auto context = gl::create_headless_context();
+    if (!context) GTEST_SKIP() << context.error().message;
+    const std::string description = (*context)->description();
+    const gpu::Device device = make_device(std::move(*context));
+    const std::string& adapter = device.caps().adapter;
+    const bool is_software = adapter.find("llvmpipe") != std::string::npos;
+    if (is_software && gl::create_osmesa_context()) {
+        EXPECT_EQ(description, "OSMesa") << adapter;
+    } else if (!is_software) {
+        EXPECT_EQ(description, "EGL device") << adapter;
+    }
+}
+
 TEST(MixedContexts, OsmesaAndEglTakeTurnsOnOneThread) {
     auto osmesa = gl::create_osmesa_context();
     if (!osmesa) GTEST_SKIP() << osmesa.error().message;
