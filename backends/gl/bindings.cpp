@@ -4,18 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <vector>
 
 #include "internal/debug_output.hpp"
 
 namespace gnomon::gl {
 namespace {
 
-// The buffer at GL_COPY_WRITE_BUFFER. Not by glClearBufferData: NVIDIA's driver (580.159) lets it
-// overtake a large write that follows at once, and what was written is zero then.
+// The buffer at GL_COPY_WRITE_BUFFER. NVIDIA's driver (580.159) sends large writes another way than
+// small ones and than glClearBufferData, which they may overtake: what was written is zero then. So
+// zeros go the way that later writes of all of the buffer will, in pieces as large as can be.
 void fill_with_zeros(const GlFunctions& gl, std::uint64_t size) {
-    static constexpr std::array<std::byte, 65536> zeros{};
+    constexpr std::uint64_t most = std::uint64_t{64} << 20U;
+    const std::uint64_t pieces = (size + most - 1) / most;
+    const std::vector<std::byte> zeros(pieces == 0 ? 0 : (size + pieces - 1) / pieces);
     for (std::uint64_t offset = 0; offset < size; offset += zeros.size()) {
         gl.BufferSubData(
             GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset),
