@@ -25,17 +25,36 @@ bool is_hardly_wrong_and_faster(const Row& row) {
            row.errors.wrong_share_worst <= hardly_wrong && row.against_auto.high < 0.95;
 }
 
-std::string whether_auto_is_right(const Cells& cells) {
-    std::size_t exact = 0;
+/// Cells of one backend.
+struct Group {
+    std::string backend;
+    Cells cells;
+};
+
+std::vector<Group> by_backend(const Cells& cells) {
+    std::vector<Group> groups;
     for (const Cell* cell : cells) {
-        const Row* row = find_row(*cell, "auto");
-        if (row != nullptr && row->errors.wrong_worst == 0) ++exact;
+        auto group = std::ranges::find(groups, cell->backend, &Group::backend);
+        if (group == groups.end()) group = groups.insert(group, {cell->backend, {}});
+        group->cells.push_back(cell);
     }
-    if (exact < cells.size()) {
-        return fmt::format("It has wrong pixels in {} of {} measurements: see below.",
-                           cells.size() - exact, cells.size());
+    return groups;
+}
+
+// What is said of each backend; once where it is the same of all.
+template <class Say>
+std::string of_each(const std::vector<Group>& groups, Say&& say) {
+    std::vector<std::string> texts;
+    for (const Group& group : groups) texts.push_back(say(group.cells));
+    const bool are_equal =
+        std::ranges::all_of(texts, [&](const std::string& text) { return text == texts.front(); });
+    if (are_equal) return texts.front();
+    std::string text;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        text += fmt::format("{}<b>{}</b>: {}", i > 0 ? "<br>" : "", escaped(groups[i].backend),
+                            texts[i]);
     }
-    return "Not one wrong pixel in any frame.";
+    return text;
 }
 
 // Techniques that are as little wrong and faster: where, and why they are not the default.
@@ -109,30 +128,43 @@ std::string maps_instead(const Cells& cells) {
         least_times = std::min(least_times, map->against_auto.mean);
         most_times = std::max(most_times, map->against_auto.mean);
     }
-    if (most_times == 0.0) return {};
+    if (most_times == 0.0) return "None was measured.";
     const auto range = [](double a, double b, auto&& text) {
         return text(a) == text(b) ? text(a) : text(a) + " to " + text(b);
     };
     return fmt::format(
-        "<li><b>Shadow maps instead?</b> The least wrong map gets {} pixels wrong and takes "
-        "{} times as long here.</li>\n",
+        "The least wrong map gets {} pixels wrong and takes {} times as long here.",
         range(fewest, most, [](double v) { return with_commas(static_cast<std::uint64_t>(v)); }),
         range(least_times, most_times, [](double v) { return fmt::format("{:.2g}", v); }));
 }
 
-std::string line(const Cell& cell, const Row& row) {
-    return fmt::format("<tr><td>{}{}</td><td>{}</td><td class=\"{}\">{}</td><td>{}</td></tr>\n",
-                       marker_svg(row.family), escaped(row.technique),
-                       three_digits(comparable_ms(cell, row)),
-                       row.errors.wrong_worst == 0 ? "good" : "bad",
-                       with_commas(row.errors.wrong_worst), percent(row.errors.wrong_share_worst));
-}
-
-std::string short_table(const Cell& cell) {
-    std::string text =
-        "<table><tr><th>technique</th><th>ms</th><th>wrong<br>pixels</th><th>of "
-        "all</th></tr>\n";
-    for (const std::size_t row : rivals_of_each_kind(cell)) text += line(cell, cell.rows[row]);
+// The same scene on all backends; the first one's choice of techniques.
+std::string short_table(const Cells& same_scene) {
+    const bool several = same_scene.size() > 1;
+    std::string text = "<table><tr><th>technique</th>";
+    for (const Cell* cell : same_scene) {
+        text += several ? fmt::format("<th>ms,<br>{}</th>", escaped(cell->backend))
+                        : std::string("<th>ms</th>");
+    }
+    text += "<th>wrong<br>pixels</th><th>of all</th></tr>\n";
+    for (const std::size_t place : rivals_of_each_kind(*same_scene.front())) {
+        const Row& first = same_scene.front()->rows[place];
+        text +=
+            fmt::format("<tr><td>{}{}</td>", marker_svg(first.family), escaped(first.technique));
+        std::uint64_t wrong = 0;
+        double share = 0.0;
+        for (const Cell* cell : same_scene) {
+            const Row* row = find_row(*cell, first.technique);
+            text += fmt::format("<td>{}</td>", row == nullptr
+                                                   ? std::string("–")
+                                                   : three_digits(comparable_ms(*cell, *row)));
+            if (row == nullptr) continue;
+            wrong = std::max(wrong, row->errors.wrong_worst);
+            share = std::max(share, row->errors.wrong_share_worst);
+        }
+        text += fmt::format("<td class=\"{}\">{}</td><td>{}</td></tr>\n",
+                            wrong == 0 ? "good" : "bad", with_commas(wrong), percent(share));
+    }
     return text + "</table>\n";
 }
 
@@ -167,20 +199,32 @@ constexpr Place places[] = {
     {Kind::Other, "Other scenes", "Whatever else was measured."}};
 
 std::string card(const Place& place, const Cells& cells) {
+    const std::vector<Group> groups = by_backend(cells);
     std::string text = fmt::format("<div class=\"card\"><h3>{}</h3><p class=\"small\">{}</p>\n",
                                    place.title, place.words);
-    text += fmt::format("<p class=\"verdict\">Use <code>auto</code>, gnomon’s default. {}</p>\n",
-                        whether_auto_is_right(cells));
+    text += fmt::format("<p class=\"verdict\">{}</p>\n", of_each(groups, [](const Cells& some) {
+                            const Recommendation advice = recommend(some);
+                            return advice.technique.empty() ? std::string("Nothing was measured.")
+                                                            : advice.reason;
+                        }));
     text += fmt::format(
         "<ul><li><b>As right, and faster?</b> {}</li>\n"
-        "<li><b>Cheaper, and a little wrong?</b> {}</li>\n{}</ul>\n",
-        rivals(cells), cheaper(cells), maps_instead(cells));
+        "<li><b>Cheaper, and a little wrong?</b> {}</li>\n"
+        "<li><b>Shadow maps instead?</b> {}</li></ul>\n",
+        of_each(groups, rivals), of_each(groups, cheaper), of_each(groups, maps_instead));
     std::set<std::string> shown;
     for (const Cell* cell : cells) {
-        if (!shown.insert(cell->scene).second) continue;  // on another backend
+        if (!shown.insert(cell->scene).second) continue;
+        Cells same_scene;
+        std::vector<std::string> backends;
+        for (const Cell* other : cells) {
+            if (other->scene != cell->scene) continue;
+            same_scene.push_back(other);
+            backends.push_back(escaped(other->backend));
+        }
         text +=
             fmt::format("<h4>{} <span class=\"small\">({})</span></h4>\n{}{}", escaped(cell->scene),
-                        escaped(cell->backend), pictures(*cell), short_table(*cell));
+                        fmt::join(backends, ", "), pictures(*cell), short_table(same_scene));
     }
     return text + "</div>\n";
 }

@@ -91,7 +91,8 @@ Json json_of(const Row& row, bool with_thumbnails) {
     Json json{{"technique", row.technique},
               {"family", row.family},
               {"summary", row.summary},
-              {"caveat", row.caveat}};
+              {"caveat", row.caveat},
+              {"general", row.general}};
     if (!row.skipped.empty()) {
         json["skipped"] = row.skipped;
         return json;
@@ -119,6 +120,7 @@ Row row_from(const Json& json) {
     row.family = json.at("family");
     row.summary = json.at("summary");
     row.caveat = json.at("caveat");
+    row.general = json.at("general");
     if (json.contains("skipped")) {
         row.skipped = json.at("skipped");
         return row;

@@ -114,6 +114,7 @@ Status Measuring::choose() {
         contender.row.family = entry.family;
         contender.row.summary = entry.summary;
         contender.row.caveat = entry.caveat;
+        contender.row.general = entry.general;
         auto technique = entry.create(setup);
         if (technique) {
             contender.technique = std::move(*technique);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <gnomon/report/writers.hpp>
 
@@ -98,12 +100,78 @@ std::string rivals_of_auto(const Cell& cell) {
     return text;
 }
 
+std::vector<std::string> backends_of(const Report& report) {
+    std::vector<std::string> names;
+    for (const Cell& cell : report.cells) {
+        if (std::ranges::find(names, cell.backend) == names.end()) names.push_back(cell.backend);
+    }
+    return names;
+}
+
+// One sentence a backend.
+std::string default_in_short(const Report& report) {
+    std::string text;
+    for (const std::string& backend : backends_of(report)) {
+        std::size_t scenes = 0;
+        std::size_t right = 0;
+        std::size_t unbeaten = 0;
+        for (const Cell& cell : report.cells) {
+            const Row* automatic = internal::find_row(cell, "auto");
+            if (cell.backend != backend || automatic == nullptr) continue;
+            ++scenes;
+            if (automatic->errors.wrong_worst == 0) ++right;
+            if (better_than_auto(cell).empty()) ++unbeaten;
+        }
+        text += fmt::format(
+            "<p>On <b>{}</b>, <code>auto</code> has no wrong pixel in {} of {} scene{}; nothing "
+            "that "
+            "is as right is faster in {} of {}.</p>\n",
+            escaped(backend), right, scenes, scenes == 1 ? "" : "s", unbeaten, scenes);
+    }
+    return text;
+}
+
+// Figures of every backend against the first's.
+std::string backends_compared(const Report& report) {
+    const std::vector<std::string> backends = backends_of(report);
+    if (backends.size() < 2) return {};
+    std::string text = fmt::format(
+        "<h2>Do {} agree?</h2>\n<p>gnomon promises the same masks of shadow volumes on each. Maps "
+        "and "
+        "flattened shadows are left to the rasterisers, which may differ at edges.</p>\n<ul>\n",
+        escaped(fmt::format("{}", fmt::join(backends, " and "))));
+    for (std::size_t i = 1; i < backends.size(); ++i) {
+        std::size_t compared = 0;
+        std::string different;
+        for (const Cell& first : report.cells) {
+            const auto other = std::ranges::find_if(report.cells, [&](const Cell& cell) {
+                return cell.scene == first.scene && cell.backend == backends[i];
+            });
+            if (first.backend != backends[0] || other == report.cells.end()) continue;
+            for (const Row& row : first.rows) {
+                const Row* there = internal::find_row(*other, row.technique);
+                if (!row.skipped.empty() || there == nullptr) continue;
+                ++compared;
+                if (row.errors == there->errors) continue;
+                different += fmt::format("{}<code>{}</code> in {}", different.empty() ? "" : ", ",
+                                         escaped(row.technique), escaped(first.scene));
+            }
+        }
+        text += fmt::format("<li>{} and {}: of {} pairs of measurements, {}.</li>\n",
+                            escaped(backends[0]), escaped(backends[i]), compared,
+                            different.empty() ? std::string("all have the same error figures")
+                                              : "all have the same error figures but " + different);
+    }
+    return text + "</ul>\n";
+}
+
 std::string against_auto(const Report& report) {
     std::string text =
         "<h2>Is <code>auto</code> the right default?</h2>\n<p>Only what is as little wrong is "
         "compared. Such a technique and <code>auto</code> are timed frame by frame in turn, in "
         "either order; it counts as faster if the whole 95 % interval of the ratio lies "
-        "below 0.95. Where none is, the one that comes closest is listed.</p>\n"
+        "below 0.95. Where none is, the one that comes closest is listed.</p>\n" +
+        default_in_short(report) +
         "<div class=\"scroll\"><table>\n<tr><th>scene</th><th>wrong pixels<br>of auto</th>"
         "<th>rival</th><th>of auto’s time<br>[95 %]</th><th class=\"text\">verdict</th></tr>\n";
     for (const Cell& cell : report.cells) text += rivals_of_auto(cell);
@@ -192,7 +260,8 @@ std::string to_html(const Report& report) {
         "<p class=\"small\">gnomon {} · {}, {} cores, {} · <code>{}</code></p>\n",
         style, escaped(report.options.version), escaped(report.machine.processor),
         report.machine.cores, escaped(report.machine.system), escaped(report.command));
-    page += internal::advice_html(report) + against_auto(report) + how_to_read(report);
+    page += internal::advice_html(report) + against_auto(report) + backends_compared(report) +
+            how_to_read(report);
     for (const Cell& cell : report.cells) page += internal::cell_html(cell);
     page += glossary(report) + left_out(report);
     return page + "</body></html>\n";

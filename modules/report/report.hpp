@@ -93,6 +93,7 @@ struct Errors {
     double edge_displacement_px = 0.0;  ///< the largest; infinite where there is no such shadow
     double iou_worst = 1.0;             ///< over all decided pixels
     double iou_median = 1.0;
+    [[nodiscard]] bool operator==(const Errors&) const = default;
 };
 /// `frames`: one judgement a frame. Cost: a sort.
 [[nodiscard]] Errors errors_of(const std::vector<truth::Judgement>& frames);
@@ -110,6 +111,8 @@ struct Row {
     std::string family;   ///< techniques of one family share a colour
     std::string summary;  ///< one sentence: what is done and what is given up
     std::string caveat;   ///< one sentence: why it is not the default although it may be faster
+    /// Right, or as good as "auto", wherever the camera and the lights go: fit to be recommended.
+    bool general = false;
     std::string skipped;  ///< why it was not measured; empty where it was
     Errors errors;
     Spread frame_ms;

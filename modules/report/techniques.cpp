@@ -13,6 +13,8 @@ namespace {
 
 constexpr const char* as_exact =
     "It is as exact; which of such variants is the fastest depends on the scene.";
+constexpr const char* saves_nothing =
+    "It is as exact; where shadows are few and small, the savings cost more than they save.";
 constexpr const char* other_depth =
     "Whether its depth is fine enough depends on the scene and the near plane.";
 constexpr const char* by_luck = "It is an approximation: right in these frames, not in all.";
@@ -21,7 +23,8 @@ class Table {
 public:
     void volumes(std::string name, const char* family, std::string summary, const char* caveat,
                  const VolumeTechnique& how, bool quick = false) {
-        entries.push_back({std::move(name), family, std::move(summary), caveat, quick,
+        const bool general = caveat == as_exact || caveat == saves_nothing || *caveat == '\0';
+        entries.push_back({std::move(name), family, std::move(summary), caveat, quick, general,
                            [how](const Setup& setup) { return create_volumes(setup, how); }});
     }
     std::vector<Entry> entries;
@@ -53,10 +56,8 @@ void add_exact(Table& table) {
                   "The same with every cap triangle written out, as most text books do.", as_exact,
                   {.system = {.force_technique = Technique::DepthFail,
                               .caps = shadows::CapOptions::plain()}});
-    table.volumes(
-        "no fill savings", "volumes", "Nothing is culled, clamped or cut to a scissor.",
-        "It is as exact; where shadows are few and small, the savings cost more than they save.",
-        {.system = {.fill = shadows::FillOptions::none()}}, true);
+    table.volumes("no fill savings", "volumes", "Nothing is culled, clamped or cut to a scissor.",
+                  saves_nothing, {.system = {.fill = shadows::FillOptions::none()}}, true);
     table.volumes("layers promised", "volumes",
                   "The scene promises fewer than 256 layers, so none are bounded.",
                   "It takes a promise about the scene, which auto does not ask for.",
@@ -152,7 +153,7 @@ void add_baselines(Table& table) {
                 {fmt::format("{} {}", f.name, size), "shadow maps", f.summary, by_luck,
                  f.filter == MapFilter::Pcf ? size == 1024
                                             : f.filter == MapFilter::Sloped && size < 4096,
-                 [size, filter = f.filter](const Setup& setup) {
+                 false, [size, filter = f.filter](const Setup& setup) {
                      return create_shadow_map(setup, size, filter);
                  }});
         }
@@ -161,14 +162,14 @@ void add_baselines(Table& table) {
                              "Casters are flattened onto the largest plane; nothing else has "
                              "shadows.",
                              "It is right only where nothing but one plane is shadowed, as here.",
-                             true, create_planar});
+                             true, false, create_planar});
     table.entries.push_back({"ray casting", "rays",
                              "Two rays a pixel on the processor, by Embree; its search trees were "
                              "built before, and its masks stay in main memory.",
                              "Where a program on the processor draws, two rays a pixel may cost "
                              "less than filling volumes; its search trees were built before and "
                              "stand still, as they could not for what moves.",
-                             true, create_rays});
+                             true, false, create_rays});
 }
 
 }  // namespace

@@ -74,6 +74,71 @@ TEST_F(ReportCommand, ARepeatedRunMeasuresNothingAndAnInterruptedOneGoesOn) {
     EXPECT_EQ(kept().size(), 4U);
 }
 
+// A table with the columns of errors alone: whose names tell of pixels, of the band, of edges.
+std::vector<std::string> errors_in(const std::string& csv) {
+    const auto cells_of = [](const std::string& line) {
+        std::vector<std::string> cells(1);
+        bool quoted = false;
+        for (const char c : line) {
+            if (c == '"') quoted = !quoted;
+            if (c == ',' && !quoted) {
+                cells.emplace_back();
+            } else {
+                cells.back() += c;
+            }
+        }
+        return cells;
+    };
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    const auto names = cells_of(line);
+    std::vector<std::string> rows;
+    while (std::getline(lines, line)) {
+        const auto cells = cells_of(line);
+        std::string& row = rows.emplace_back();
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            for (const char* part : {"scene", "technique", "wrong", "false", "band", "displacement",
+                                     "iou", "layers"}) {
+                if (names[i].find(part) != std::string::npos) row += cells.at(i) + ",";
+            }
+        }
+    }
+    return rows;
+}
+
+TEST_F(ReportCommand, TwoRunsHaveTheSameErrorsToTheLastDigit) {
+    if (!draws_at_all()) GTEST_SKIP() << "no backend draws here";
+    Arguments run_once{"report", "builtin:room", "builtin:knot", "--quick", "--quiet",
+                       "--size", "96x54",        "--rounds",     "1",       "--frames",
+                       "3"};
+    run_well(joined(run_once, {"--out", "first"}));
+    run_well(joined(run_once, {"--out", "second"}));
+    const auto first = errors_in(read("first/report.csv"));
+    EXPECT_GT(first.size(), 20U);
+    EXPECT_GT(std::set<std::string>(first.begin(), first.end()).size(), 15U);
+    EXPECT_EQ(errors_in(read("second/report.csv")), first);
+    EXPECT_NE(read("second/report.csv"), read("first/report.csv"));  // the clock's are not
+}
+
+TEST_F(ReportCommand, BothBackendsHaveTheSameErrorsOfVolumes) {
+    if (!draws("gl") || !draws("vk")) GTEST_SKIP() << "one of the backends does not draw";
+    Arguments run_both{"report", "builtin:still-life", "--quiet", "--size",    "96x54", "--rounds",
+                       "1",      "--frames",           "3",       "--backend", "gl,vk", "--out",
+                       "r"};
+    for (const char* technique : {"depth-fail", "depth-pass", "silhouette simd",
+                                  "silhouette every 3 frames", "tolerance 5 deg"}) {
+        run_both.insert(run_both.end(), {"--technique", technique});
+    }
+    run_well(run_both);
+    const auto rows = errors_in(read("r/report.csv"));
+    ASSERT_EQ(rows.size(), 12U);
+    const auto half = rows.begin() + 6;
+    EXPECT_EQ(std::vector<std::string>(rows.begin(), half),
+              std::vector<std::string>(half, rows.end()));
+    EXPECT_THAT(read("r/report.html"), HasSubstr("of 6 pairs of measurements, all have the same"));
+}
+
 TEST_F(ReportCommand, SaysWhichScenesOfTheStandardSetAreNotThere) {
     if (!draws_at_all()) GTEST_SKIP() << "no backend draws here";
     const auto standard = [&](const Arguments& more) {

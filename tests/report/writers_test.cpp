@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "internal/page_parts.hpp"
+
 namespace gnomon::report {
 namespace {
 
@@ -22,6 +24,7 @@ Row row(const std::string& technique, double ms, std::uint64_t wrong) {
     row.technique = technique;
     row.family = "volumes";
     row.summary = "What it does.";
+    row.general = true;
     row.frame_ms = {ms, ms * 1.5, ms * 0.9, ms * 2.0};
     row.against_auto = {ms / 2.0, ms / 2.0, ms / 2.0};  // "auto" takes 2 ms
     row.errors.wrong_worst = wrong;
@@ -157,6 +160,84 @@ TEST(Html, TinyTimesAreWrittenAndDrawn) {
     // Nothing at all was timed: no plot, but a page.
     for (Row& r : small.cells[0].rows) r.frame_ms = {};
     EXPECT_THAT(to_html(small), HasSubstr("</html>"));
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+        ++found;
+    }
+    return found;
+}
+
+TEST(Html, SaysOfEachBackendWhatIsTrueOfIt) {
+    Report both = report();
+    both.cells.push_back(cell());
+    both.cells[1].backend = "vk";
+    std::string page = to_html(both);
+    EXPECT_THAT(page, HasSubstr("of 5 pairs of measurements, all have the same error figures.<"));
+    for (const char* backend : {"gl", "vk"}) {
+        EXPECT_THAT(page, HasSubstr(std::string("<p>On <b>") + backend +
+                                    "</b>, <code>auto</code> has no wrong pixel in 1 of 1 scene; "
+                                    "nothing that is as right is faster in 1 of 1."));
+    }
+    // What is the same of both is said once.
+    EXPECT_EQ(count(page, "Use <code>auto</code>"), 1U);
+    EXPECT_EQ(count(page, "Nothing was found that is faster by more than 5 %."), 1U);
+    EXPECT_THAT(page, HasSubstr("<th>ms,<br>gl</th><th>ms,<br>vk</th>"));
+
+    both.cells[1].rows[3].against_auto = {0.5, 0.5, 0.5};
+    both.cells[1].rows[2].errors.wrong_at_all_worst = 71;
+    page = to_html(both);
+    EXPECT_THAT(page, HasSubstr("all have the same error figures but <code>quick &amp; wrong</code>"
+                                " in a &lt;b&gt;"));
+    EXPECT_THAT(page, HasSubstr("<b>vk</b>: <code>equal</code> (0.50 of its time"));
+    EXPECT_THAT(page, HasSubstr("scene; nothing that is as right is faster in 0 of 1."));
+    EXPECT_THAT(to_html(report()), Not(HasSubstr("agree?")));
+}
+
+class Recommend : public testing::Test {
+protected:
+    [[nodiscard]] internal::Recommendation made() const {
+        return internal::recommend({&first, &second});
+    }
+    Cell first = cell();
+    Cell second = cell();
+};
+
+TEST_F(Recommend, AutoUnlessSomethingIsFasterEverywhere) {
+    EXPECT_EQ(made().technique, "auto");
+    EXPECT_THAT(made().reason, HasSubstr("Not one wrong pixel"));
+    first.rows[3].against_auto = {0.5, 0.45, 0.55};
+    EXPECT_EQ(made().technique, "auto");  // in one of the two scenes
+    second.rows[3].against_auto = {0.5, 0.45, 0.96};
+    EXPECT_EQ(made().technique, "auto");  // not beyond the interval
+    second.rows[3].against_auto = {0.5, 0.45, 0.55};
+    EXPECT_EQ(made().technique, "equal");
+    EXPECT_THAT(made().reason, HasSubstr("50 % of its time in each of these 2 scenes"));
+    first.rows[3].general = false;  // right by luck
+    EXPECT_EQ(made().technique, "auto");
+}
+
+TEST_F(Recommend, WhatIsLessWrongIfAutoIsNotRight) {
+    first.rows[0].errors.wrong_worst = 1200;
+    EXPECT_EQ(made().technique, "equal");  // the faster of two without a wrong pixel
+    EXPECT_THAT(made().reason, HasSubstr("0 wrong pixels in the worst frames, where "
+                                         "<code>auto</code> has 1,200"));
+    for (Cell* c : {&first, &second}) {
+        for (Row& r : c->rows) r.errors.wrong_worst = 3;
+        c->rows[2].against_auto = {0.99, 0.98, 1.01};
+    }
+    EXPECT_EQ(made().technique, "auto");  // all are as wrong
+    EXPECT_THAT(made().reason, HasSubstr("It has the fewest wrong pixels, 6"));
+}
+
+TEST_F(Recommend, OfWhatWasMeasuredInAllScenes) {
+    first.rows[0].skipped = "It failed.";
+    EXPECT_EQ(made().technique, "equal");
+    EXPECT_THAT(made().reason, HasSubstr("could not be measured"));
+    for (Row& r : second.rows) r.skipped = "It failed.";
+    EXPECT_EQ(made().technique, "");
 }
 
 TEST(Kept, ComesBackAsItWas) {

@@ -80,6 +80,7 @@ struct Entry {
     std::string summary;
     std::string caveat;
     bool quick = false;
+    bool general = false;  ///< as Row::general
     std::function<Result<std::unique_ptr<Technique>>(const Setup&)> create;
 };
 
