@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -29,16 +30,31 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+// The program's file and, where they are shared, gnomon's libraries: each once.
+std::set<std::string> files_of_this_program() {
+    std::set<std::string> files{"/proc/self/exe"};
+    std::ifstream maps("/proc/self/maps");
+    for (std::string line; std::getline(maps, line);) {
+        const std::size_t path = line.find('/');
+        if (path != std::string::npos && line.find("/libgnomon") != std::string::npos) {
+            files.insert(line.substr(path));
+        }
+    }
+    return files;
+}
+
 // Any other program may measure otherwise.
 std::string build_of_this_program() {
-    std::ifstream file("/proc/self/exe", std::ios::binary);
     std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
     std::vector<char> block(std::size_t{1} << 20U);
-    while (file) {
-        file.read(block.data(), static_cast<std::streamsize>(block.size()));
-        for (std::streamsize i = 0; i < file.gcount(); ++i) {
-            hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) *
-                   0x100000001b3ULL;
+    for (const std::string& name : files_of_this_program()) {
+        std::ifstream file(name, std::ios::binary);
+        while (file) {
+            file.read(block.data(), static_cast<std::streamsize>(block.size()));
+            for (std::streamsize i = 0; i < file.gcount(); ++i) {
+                hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) *
+                       0x100000001b3ULL;
+            }
         }
     }
     return fmt::format("{:016x}", hash);
@@ -73,6 +89,7 @@ private:
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_told_{};
     double taken_over_ = 0.0;  // share of the work that an earlier run did
+    std::size_t cells_taken_over_ = 0;
 };
 
 Status ReportRun::prepare() {
@@ -168,6 +185,7 @@ Status ReportRun::measure_one(const WantedScene& wanted, gpu::Device& device, do
         if (auto cell = report::cell_from_json(text_of(kept))) {
             report_.cells.push_back(std::move(*cell));
             taken_over_ += share;
+            ++cells_taken_over_;
             return {};
         }
     }
@@ -214,6 +232,12 @@ Status ReportRun::finish() {
     if (const Status written = write_tables(); !written) return written;
     const std::string note = draw_plots(options_.out / "report.json", options_.out / "plots");
     if (!options_.quiet) {
+        if (cells_taken_over_ > 0) {
+            fmt::print(stderr,
+                       "{} of {} measurements were taken over: this program made them before, on "
+                       "this machine, with the same arguments.\n",
+                       cells_taken_over_, report_.cells.size());
+        }
         if (!note.empty()) fmt::print(stderr, "{}\n", one_line(note));
         fmt::print(stderr, "{}\n", (options_.out / "report.html").string());
     }

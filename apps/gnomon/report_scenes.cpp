@@ -36,7 +36,7 @@ constexpr Standard standard_set[] = {
     {"duplex-house", "scenes/duplex-house.glb", report::Kind::Indoor, false,
      Look{{-4.0, 1.7, 3.0}, {-4.0, 0.8, 10.0}, 70.0, {false, {-4.0, 2.2, 6.0}}}},
     {"godot-room", "scenes/godot-room.glb", report::Kind::Indoor, false,
-     Look{{4.3, 1.7, 1.3}, {-2.0, 1.0, -1.3}, 70.0, {false, {1.5, 4.3, 2.2}}}},
+     Look{{-0.5, 1.7, 3.6}, {0.5, 1.6, -3.0}, 70.0, {false, {1.9, 1.0, -1.2}}}},
     {"pillars", "builtin:pillars", report::Kind::Outdoor, true},
     {"linz-old-town", "scenes/linz-old-town.glb", report::Kind::Outdoor, false,
      Look{{-150.0, 70.0, 260.0}, {20.0, 5.0, 40.0}, 50.0, {true, {-1.0, -0.9, -0.6}}}},

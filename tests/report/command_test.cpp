@@ -53,6 +53,9 @@ TEST_F(ReportCommand, ARepeatedRunMeasuresNothingAndAnInterruptedOneGoesOn) {
     ASSERT_EQ(kept().size(), 2U);
     run_well(small({"builtin:pillars"}));
     EXPECT_EQ(read("r/report.csv"), csv);
+    Arguments loud = small({"builtin:pillars"});
+    std::erase(loud, "--quiet");
+    EXPECT_THAT(run(loud).errors, HasSubstr("2 of 2 measurements were taken over"));
 
     // As if it had been stopped within the second scene, or while it wrote the first.
     for (const auto& path : kept()) {
