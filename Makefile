@@ -79,6 +79,7 @@ savings: build ## measure what each saving of fill saves, and write bench/result
 report: build ## speed against error of every technique: build/report/report.html and the tables of docs/speed-and-error.md
 	@build/bin/gnomon report --out build/report $(REPORT_OPTIONS)
 	@scripts/report-tables build/report/report.json --document docs/speed-and-error.md
+	@plot=build/report/plots/linz-old-town.gl.png; [ ! -f $$plot ] || cp $$plot docs/images/speed-and-error.png
 
 docs: ## the reference of all public headers and the guides, in build/docs/html
 	@scripts/setup --docs

@@ -67,8 +67,10 @@ const CLI::App* add_report(CLI::App& app, ReportOptions& o, bool& list_technique
                 }
                 o.backends = names;
             },
-            fmt::format("Some of {}, with commas; default: the first that works",
-                        fmt::join(backend_names(), ", ")))
+            fmt::format(
+                "Some of {}, with commas; default: the first that draws on a graphics chip, else "
+                "the first that works",
+                fmt::join(backend_names(), ", ")))
         ->type_name("LIST");
     report
         ->add_option_function<std::string>(

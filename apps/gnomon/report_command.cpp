@@ -60,6 +60,16 @@ std::string build_of_this_program() {
     return fmt::format("{:016x}", hash);
 }
 
+// The first that draws on a graphics chip, else the empty name: the first that works.
+std::string best_backend() {
+    for (const std::string& name : backend_names()) {
+        if (name == "null") continue;
+        const auto device = create_device({.backend = name});
+        if (device && !report::draws_in_software(device->caps().adapter)) return name;
+    }
+    return {};
+}
+
 std::string text_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -136,7 +146,7 @@ Status ReportRun::prepare() {
                    report_.left_out.front().reason, list);
     }
     const std::vector<std::string> backends =
-        options_.backends.empty() ? std::vector<std::string>{""} : options_.backends;
+        options_.backends.empty() ? std::vector<std::string>{best_backend()} : options_.backends;
     for (const std::string& backend : backends) {
         auto device = create_device({.backend = backend});
         if (!device) return forward_error(device);

@@ -15,7 +15,7 @@ namespace gnomon::cli {
 struct ReportOptions {
     std::vector<std::string> scenes = {};  ///< none: the standard set
     std::filesystem::path out = "report";
-    std::vector<std::string> backends = {};  ///< none: the first that works
+    std::vector<std::string> backends = {};  ///< none: one on a graphics chip, else any
     std::optional<Size> size = std::nullopt;
     std::optional<std::uint32_t> rounds = std::nullopt;
     std::optional<std::uint32_t> frames = std::nullopt;

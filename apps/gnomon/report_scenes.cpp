@@ -105,7 +105,7 @@ std::vector<WantedScene> given_scenes(const std::vector<std::string>& sources) {
             source.starts_with("builtin:") ? source.substr(8) : fs::path(source).stem().string();
         report::Kind kind = report::Kind::Other;
         for (const Standard& standard : standard_set) {
-            if (source == standard.source) kind = standard.kind;
+            if (source.ends_with(standard.source)) kind = standard.kind;
         }
         const std::string stem = name;
         for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{} ({})", stem, i);

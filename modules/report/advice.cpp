@@ -231,17 +231,6 @@ std::string card(const Place& place, const Cells& cells) {
 
 }  // namespace
 
-bool draws_in_software(std::string_view adapter) {
-    std::string lower;
-    for (const char c : adapter) {
-        lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    for (const char* name : {"llvmpipe", "softpipe", "swiftshader", "lavapipe", "swrast"}) {
-        if (lower.find(name) != std::string::npos) return true;
-    }
-    return false;
-}
-
 std::string advice_html(const Report& report) {
     std::string text = "<h2>What to use</h2>\n";
     std::set<std::string> software;

@@ -358,6 +358,17 @@ std::string_view to_string(Kind kind) {
     return "other";
 }
 
+bool draws_in_software(std::string_view adapter) {
+    std::string lower;
+    for (const char c : adapter) {
+        lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    for (const char* name : {"llvmpipe", "softpipe", "swiftshader", "lavapipe", "swrast"}) {
+        if (lower.find(name) != std::string::npos) return true;
+    }
+    return false;
+}
+
 Result<Cell> measure(gpu::Device& device, Subject& subject, const Options& options,
                      const std::function<void(const Progress&)>& progress) {
     Measuring measuring(device, subject, options, progress);

@@ -14,6 +14,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -161,6 +162,9 @@ struct Report {
     std::vector<Cell> cells;
     std::vector<LeftOut> left_out = {};
 };
+
+/// A program on the processor draws, as far as the adapter's name tells.
+[[nodiscard]] bool draws_in_software(std::string_view adapter);
 
 /// Steps done and to do, and what is being done.
 struct Progress {

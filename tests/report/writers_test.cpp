@@ -240,6 +240,25 @@ TEST_F(Recommend, OfWhatWasMeasuredInAllScenes) {
     EXPECT_EQ(made().technique, "");
 }
 
+TEST(DrawsInSoftware, IsToldByTheAdaptersName) {
+    for (const char* name :
+         {"llvmpipe (LLVM 15.0.6, 256 bits)", "SwiftShader Device (Subzero)", "softpipe"}) {
+        EXPECT_TRUE(draws_in_software(name)) << name;
+    }
+    for (const char* name : {"NVIDIA H100 80GB HBM3/PCIe/SSE2", "AMD Radeon Graphics (RADV)",
+                             "Mesa Intel(R) UHD Graphics 620 (KBL GT2)", ""}) {
+        EXPECT_FALSE(draws_in_software(name)) << name;
+    }
+    Report mixed = report();
+    mixed.cells.push_back(cell());
+    mixed.cells[0].adapter = "llvmpipe";
+    mixed.cells[1].backend = "vk";
+    EXPECT_THAT(to_html(mixed), HasSubstr("a program on the processor draws on gl."));
+    mixed.cells[1].adapter = "llvmpipe";
+    EXPECT_THAT(to_html(mixed), HasSubstr("a program on the processor draws."));
+    EXPECT_THAT(to_html(report()), Not(HasSubstr("a program on the processor draws")));
+}
+
 TEST(Kept, ComesBackAsItWas) {
     const std::string text = cell_to_json(cell());
     const auto back = cell_from_json(text);

@@ -40,7 +40,5 @@ inline constexpr double hardly_wrong = 1e-3;
 [[nodiscard]] std::string percent(double share);
 /// 1.23 [1.20, 1.26].
 [[nodiscard]] std::string ratio_text(const Ratio& ratio);
-/// A program on the processor draws, as far as its name tells.
-[[nodiscard]] bool draws_in_software(std::string_view adapter);
 
 }  // namespace gnomon::report::internal
