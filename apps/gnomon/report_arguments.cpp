@@ -67,10 +67,8 @@ const CLI::App* add_report(CLI::App& app, ReportOptions& o, bool& list_technique
                 }
                 o.backends = names;
             },
-            fmt::format(
-                "Some of {}, with commas; default: the first that draws on a graphics chip, else "
-                "the first that works",
-                fmt::join(backend_names(), ", ")))
+            "One that draws, or several with commas (gl,vk); default: the first that draws on a "
+            "graphics chip, else the first that works")
         ->type_name("LIST");
     report
         ->add_option_function<std::string>(
@@ -85,8 +83,8 @@ const CLI::App* add_report(CLI::App& app, ReportOptions& o, bool& list_technique
     report
         ->add_option("--rounds", o.rounds,
                      "How often each technique draws the motion, in turn with the others; default "
-                     "5, with --quick 3, and more where frames are so short that a scene's take "
-                     "less than 5 s, with --quick 1 s")
+                     "5, with --quick 3, and more where frames are so short that a scene's rounds "
+                     "take less than 5 s, with --quick 1 s")
         ->check(CLI::Range(1, 1000));
     report
         ->add_option("--frames", o.frames,

@@ -18,8 +18,6 @@ namespace gnomon::report::internal {
 
 namespace {
 
-using Cells = std::vector<const Cell*>;
-
 bool is_hardly_wrong_and_faster(const Row& row) {
     return row.skipped.empty() && row.technique != "auto" &&
            row.errors.wrong_share_worst <= hardly_wrong && row.against_auto.high < 0.95;

@@ -54,7 +54,7 @@ struct Rectangle {
 };
 
 /// Where a name may stand beside its dot.
-struct Place {
+struct NamePlace {
     double dx, dy;
     const char* anchor;
     bool with_line = false;
@@ -286,7 +286,7 @@ bool Plot::is_free(const Rectangle& box) const {
 void Plot::name(const Dot& dot, bool on_front) {
     const std::string& text = row(dot).technique;
     const double text_width = letter_width * static_cast<double>(text.size());
-    std::vector<Place> places;
+    std::vector<NamePlace> places;
     if (on_front) places.push_back({-11.0, 4.0, "end"});
     if (is_right(dot)) {
         for (const double dy : {4.0, lane_of(row(dot).family) - dot.y + 4.0}) {

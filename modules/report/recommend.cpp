@@ -14,8 +14,6 @@ namespace gnomon::report::internal {
 
 namespace {
 
-using Cells = std::vector<const Cell*>;
-
 /// A technique that was measured in all of the scenes.
 struct Candidate {
     const Row* row = nullptr;  // of the first

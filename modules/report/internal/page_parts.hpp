@@ -16,6 +16,9 @@ namespace gnomon::report::internal {
 /// A scene on a backend: its plot, its table, its pictures.
 [[nodiscard]] std::string cell_html(const Cell& cell);
 
+/// Some of a report's.
+using Cells = std::vector<const Cell*>;
+
 /// What to use for scenes of one kind, on one backend.
 struct Recommendation {
     std::string technique;  ///< empty where nothing was measured in all of them
@@ -23,7 +26,7 @@ struct Recommendation {
 };
 /// Of what is general: the least wrong; of equals "auto", unless something is faster by more than 5
 /// % beyond its 95 % interval in every one of the scenes. `cells` has at least one.
-[[nodiscard]] Recommendation recommend(const std::vector<const Cell*>& cells);
+[[nodiscard]] Recommendation recommend(const Cells& cells);
 
 /// Empty where the technique was not measured.
 [[nodiscard]] const Row* find_row(const Cell& cell, std::string_view technique);
