@@ -203,7 +203,7 @@ void Plot::draw_lanes() {
     svg_ += fmt::format(
         "<text x=\"{}\" y=\"{}\" class=\"axis\" text-anchor=\"start\">no wrong pixel in any frame"
         "</text>\n",
-        left, lanes_top - 8.0);
+        10.0, lanes_top - 9.0);  // further left than any line may run
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
         const double y = lanes_top + lane_height * static_cast<double>(i);
         svg_ += fmt::format(
@@ -231,7 +231,7 @@ void Plot::draw_auto() {
         "wrong</text>\n",
         dot->x, top - 8.0, bottom(), top - 13.0, three_digits(comparable_ms(cell_, row(*dot))),
         is_right(*dot) ? "none" : with_commas(row(*dot).errors.wrong_worst));
-    taken_.push_back({dot->x - 1.0, top, dot->x + 1.0, panel_bottom});
+    taken_.push_back({dot->x - 1.0, top, dot->x + 1.0, bottom()});
 }
 
 void Plot::draw_front() {
