@@ -81,10 +81,14 @@ void ReceiverTree::reach(const ShadowHull& hull, Reached& reached) const {
             continue;
         }
         if (node.is_leaf) {
-            const double along = support(within, axis);
-            reached.along_axis = reached.any() ? std::max(reached.along_axis, along) : along;
-            reached.box.include(within);
-            known.include(within);
+            // Only so far as the light's way through this one leads.
+            const Aabb part = hull.bounds_in(within);
+            if (!part.empty()) {
+                const double along = support(part, axis);
+                reached.along_axis = reached.any() ? std::max(reached.along_axis, along) : along;
+                reached.box.include(part);
+                known.include(part);
+            }
         }
         ++i;
     }
