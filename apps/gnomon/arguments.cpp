@@ -197,6 +197,8 @@ Result<shadows::FillOptions> parse_without(std::string_view text) {
             fill.cull_by_umbra = false;
         } else if (part == "clamp") {
             fill.clamp = false;
+        } else if (part == "slabs") {
+            fill.slabs = false;
         } else if (part == "scissor") {
             fill.scissor = false;
         } else if (part == "depth-bounds") {
@@ -208,7 +210,7 @@ Result<shadows::FillOptions> parse_without(std::string_view text) {
                 ErrorCode::InvalidInput,
                 fmt::format(
                     "--without: \"{}\" is none of view-cull, receiver-cull, umbra-cull, clamp, "
-                    "scissor, depth-bounds, all.",
+                    "slabs, scissor, depth-bounds, all.",
                     part));
         }
     }

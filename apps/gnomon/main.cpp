@@ -192,7 +192,7 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
         ->add_option_function<std::string>(
             "--without", parsed_into(o.fill, cli::parse_without),
             "Savings of fill to do without, for measurements: view-cull,receiver-cull,umbra-"
-            "cull,clamp,scissor,depth-bounds; all")
+            "cull,clamp,slabs,scissor,depth-bounds; all")
         ->type_name("LIST");
     render->add_flag("--list-silhouettes", list_silhouettes, "List the names for --silhouette");
     render

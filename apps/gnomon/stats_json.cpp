@@ -45,6 +45,7 @@ std::string to_json(const RunRecord& run) {
              {"pairs_hidden", s.pairs_hidden},
              {"pairs_in_umbra", s.pairs_in_umbra},
              {"pairs_clamped", s.pairs_clamped},
+             {"pairs_in_slabs", s.pairs_in_slabs},
              {"pairs_redetected", s.pairs_redetected},
              {"pairs_reused", s.pairs_reused},
              {"zpass_pairs", s.zpass_pairs},

@@ -35,40 +35,49 @@ bool is_alike(const shadows::LightDraws& a, const shadows::LightDraws& b) {
 
 }  // namespace
 
-// Into `keys`. `before`: what the light was, or null.
+// Into `keys`, one for each slab of a draw that has some. `before`: what the light was, or null.
 void ShadowPass::State::make_keys(const shadows::DrawList& list, const shadows::LightDraws& light,
                                   const PreparedLight* before) {
     keys.clear();
-    const bool cut = target.width > 0 && target.height > 0;
     for (std::uint32_t i = light.first; i < light.first + light.count; ++i) {
         const shadows::VolumeDraw& draw = list.draws[i];
-        DrawKey key{.revision = draw.revision,
-                    .mesh = draw.mesh->id(),
-                    .wanted = scissor_of(draw.bounds),
-                    .scissor = {},
-                    .depth = depth_of(draw),
-                    .batch = draw.batch,
-                    .technique = draw.technique,
-                    .near_caps = draw.near_caps,
-                    .far_caps = draw.far_caps,
-                    .mirrored = draw.mirrored,
-                    .hidden = draw.bounds.empty()};
-        key.scissor = key.wanted;
-        if (cut && !key.hidden && !(key.wanted == everything())) {
-            const std::size_t place = i - light.first;
-            const DrawKey* known =
-                before != nullptr && place < before->keys.size() ? &before->keys[place] : nullptr;
-            if (known != nullptr && known->mesh == key.mesh && known->wanted == key.wanted &&
-                !instances.changed(i)) {
-                key.scissor = known->scissor;
-            } else if (!internal::scissor_pays(
-                           internal::covered_pixels(*draw.mesh, instances[i], target),
-                           key.wanted)) {
-                key.scissor = everything();
-            }
+        if (draw.slabs.empty()) add_key(draw, nullptr, i, before);
+        for (std::uint32_t k = 0; k < draw.slabs.size(); ++k) {
+            add_key(draw, &draw.slabs[k], instances.first_slab(i) + k, before);
         }
-        keys.push_back(key);
     }
+}
+
+void ShadowPass::State::add_key(const shadows::VolumeDraw& draw, const shadows::VolumeSlab* slab,
+                                std::uint32_t instance, const PreparedLight* before) {
+    const shadows::ScreenBounds& bounds = slab != nullptr ? slab->bounds : draw.bounds;
+    DrawKey key{.revision = draw.revision,
+                .mesh = draw.mesh->id(),
+                .instance = instance,
+                .wanted = scissor_of(bounds),
+                .scissor = {},
+                .depth = depth_of(draw),
+                .batch = draw.batch,
+                .technique = draw.technique,
+                .ends = internal::ends_of(draw, slab, desc),
+                .mirrored = draw.mirrored,
+                .hidden = bounds.empty()};
+    key.scissor = key.wanted;
+    const bool cut = target.width > 0 && target.height > 0;
+    if (cut && !key.hidden && !(key.wanted == everything())) {
+        const std::size_t place = keys.size();
+        const DrawKey* known =
+            before != nullptr && place < before->keys.size() ? &before->keys[place] : nullptr;
+        if (known != nullptr && known->mesh == key.mesh && known->instance == instance &&
+            known->wanted == key.wanted && !instances.changed(instance)) {
+            key.scissor = known->scissor;
+        } else if (!internal::scissor_pays(
+                       internal::covered_pixels(*draw.mesh, instances[instance], target),
+                       key.wanted)) {
+            key.scissor = everything();
+        }
+    }
+    keys.push_back(key);
 }
 
 // Those that are `known` keep their calls.
@@ -101,13 +110,16 @@ Status ShadowPass::State::make_calls(const shadows::DrawList& list, PreparedLigh
     light.calls.clear();
     light.parts.clear();
     light.hidden_draws = light.depth_bounded_draws = 0;
+    std::span<const DrawKey> left = light.keys;
     for (std::uint32_t i = light.draws.first; i < light.draws.first + light.draws.count; ++i) {
         const shadows::VolumeDraw& draw = list.draws[i];
+        const auto of_draw = left.first(std::max<std::size_t>(1, draw.slabs.size()));
+        left = left.subspan(of_draw.size());
         if (draw.bounds.empty()) {
             ++light.hidden_draws;
             continue;
         }
-        if (!light.keys[i - light.draws.first].depth.everything()) ++light.depth_bounded_draws;
+        if (!of_draw[0].depth.everything()) ++light.depth_bounded_draws;
         if (light.finite && !unclipped(light) && draw.technique == Technique::DepthFail) {
             return fail(ErrorCode::Unsupported,
                         "Caster " + std::to_string(draw.caster) + " needs depth-fail for light " +
@@ -117,8 +129,8 @@ Status ShadowPass::State::make_calls(const shadows::DrawList& list, PreparedLigh
                             device->caps().adapter +
                             " lacks unclipped depth. Use an infinite perspective.");
         }
-        const Status added =
-            draw.quads ? add_quad_calls(list, i, light) : add_calls(list, i, light);
+        const Status added = draw.quads ? add_quad_calls(list, i, of_draw[0], light)
+                                        : add_calls(list, i, of_draw, light);
         if (!added) return added;
     }
     internal::sort_calls(light.calls, everything());
@@ -134,18 +146,19 @@ Status ShadowPass::State::make_calls(const shadows::DrawList& list, PreparedLigh
 }
 
 Status ShadowPass::State::add_quad_calls(const shadows::DrawList& list, std::uint32_t i,
-                                         PreparedLight& light) {
+                                         const DrawKey& key, PreparedLight& light) {
     const shadows::VolumeDraw& draw = list.draws[i];
     const auto textures = quads->textures_of(draw, generation, stats.uploaded_bytes);
     if (!textures) return forward_error(textures);
-    internal::runs_of(draw, internal::ranges_of(draw), desc, runs);
+    runs.clear();
+    internal::append_runs(internal::ranges_of(draw), key.ends, runs);
     for (const Run& run : runs) {
         light.calls.push_back(
             {.vertices = {},
              .indices = {},
              .textures = *textures,
-             .scissor = light.keys[i - light.draws.first].scissor,
-             .depth = light.keys[i - light.draws.first].depth,
+             .scissor = key.scissor,
+             .depth = key.depth,
              .first = run.first,
              .count = run.count,
              .instance = quads->uniform_offset(i),
@@ -158,11 +171,16 @@ Status ShadowPass::State::add_quad_calls(const shadows::DrawList& list, std::uin
 }
 
 Status ShadowPass::State::add_calls(const shadows::DrawList& list, std::uint32_t i,
-                                    PreparedLight& light) {
+                                    std::span<const DrawKey> of_draw, PreparedLight& light) {
     const shadows::VolumeDraw& draw = list.draws[i];
     const auto from = vertices_of(draw, i, light);
     if (!from) return forward_error(from);
-    internal::runs_of(draw, *draw.volume, desc, runs);
+    runs.clear();
+    run_ends.clear();
+    for (const DrawKey& key : of_draw) {
+        internal::append_runs(*draw.volume, key.ends, runs);
+        run_ends.push_back(runs.size());
+    }
     const auto volume = indices_of(draw);
     if (!volume) return forward_error(volume);
     light.marks.push_back(&(*volume)->used);
@@ -177,18 +195,21 @@ Status ShadowPass::State::add_calls(const shadows::DrawList& list, std::uint32_t
         caps = (*got)->run;
     }
     const VolumeRun& at = **volume;
-    for (const Run& run : runs) {
+    const DrawKey* key = of_draw.data();
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        while (r == run_ends[static_cast<std::size_t>(key - of_draw.data())]) ++key;
+        const Run& run = runs[r];
         const ArenaRun& where = run.of_mesh ? caps : at.run;
         light.calls.push_back(
             {.vertices = from->buffer,
              .indices = indices.buffer(where.chunk),
              .textures = {},
-             .scissor = light.keys[i - light.draws.first].scissor,
-             .depth = light.keys[i - light.draws.first].depth,
+             .scissor = key->scissor,
+             .depth = key->depth,
              .first = where.first + (run.of_mesh ? run.first : run.first - at.begin),
              .count = run.count,
              .base_vertex = from->base_vertex + run.base_vertex,
-             .instance = i,
+             .instance = key->instance,
              .batch = draw.batch,
              .pipeline = static_cast<std::uint8_t>(internal::pipeline_index(
                  draw.technique, draw.mirrored != run.exchanged, unclipped(light), run.role))});

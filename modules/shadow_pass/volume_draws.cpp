@@ -13,9 +13,9 @@ using shadows::FarCopies;
 
 class Runs {
 public:
-    Runs(const shadows::Volume& volume, std::vector<Run>& runs) : volume_(volume), runs_(runs) {
-        runs_.clear();
-    }
+    // Behind those that are there.
+    Runs(const shadows::Volume& volume, std::vector<Run>& runs)
+        : volume_(volume), runs_(runs), first_(runs.size()) {}
 
     void add(const shadows::IndexRange& range) {
         if (range.count > 0) runs_.push_back({.first = range.first, .count = range.count});
@@ -37,12 +37,14 @@ public:
         const auto state_of = [](const Run& r) {
             return std::tie(r.exchanged, r.role, r.of_mesh, r.base_vertex);
         };
-        std::sort(runs_.begin(), runs_.end(), [&](const Run& a, const Run& b) {
+        const auto first = runs_.begin() + static_cast<std::ptrdiff_t>(first_);
+        std::sort(first, runs_.end(), [&](const Run& a, const Run& b) {
             return std::tuple(state_of(a), a.first) < std::tuple(state_of(b), b.first);
         });
-        std::size_t joined = 0;
-        for (const Run& run : runs_) {
-            Run* last = joined > 0 ? &runs_[joined - 1] : nullptr;
+        std::size_t joined = first_;
+        for (std::size_t i = first_; i < runs_.size(); ++i) {
+            const Run run = runs_[i];
+            Run* last = joined > first_ ? &runs_[joined - 1] : nullptr;
             if (last != nullptr && last->first + last->count == run.first &&
                 state_of(*last) == state_of(run)) {
                 last->count += run.count;
@@ -69,26 +71,36 @@ private:
 
     const shadows::Volume& volume_;
     std::vector<Run>& runs_;
+    std::size_t first_;
 };
 
 }  // namespace
 
-void runs_of(const shadows::VolumeDraw& draw, const shadows::Volume& volume,
-             const ShadowPassDesc& desc, std::vector<Run>& out) {
-    const bool near = draw.technique == shadows::Technique::DepthFail || draw.near_caps;
-    const bool far = draw.far_caps;
-    const bool open = desc.averted_faces == AvertedFaces::LeftToShading;
-    const Role cap = desc.cap_bias.none() ? Role::Volume : Role::Cap;
+Ends ends_of(const shadows::VolumeDraw& draw, const shadows::VolumeSlab* slab,
+             const ShadowPassDesc& desc) {
+    const bool fails = draw.technique == shadows::Technique::DepthFail;
+    // On a plane where no surface is, caps are biased in front of none.
+    const bool on_surface = slab == nullptr || !slab->from_plane;
+    return {.near = fails || (slab != nullptr ? slab->near_caps : draw.near_caps),
+            .far = slab != nullptr ? slab->far_caps : draw.far_caps,
+            .open = on_surface && desc.averted_faces == AvertedFaces::LeftToShading,
+            .biased = on_surface && !desc.cap_bias.none()};
+}
+
+void append_runs(const shadows::Volume& volume, const Ends& ends, std::vector<Run>& out) {
+    const Role cap = ends.biased ? Role::Cap : Role::Volume;
     Runs runs(volume, out);
-    if (far) runs.add(volume.far_cap);
+    if (ends.far) runs.add(volume.far_cap);
     runs.add(volume.sides);
-    if (near) {
+    if (ends.near) {
         runs.add_near_caps(volume.near_cap, false, cap);
         runs.add_near_caps(volume.near_cap_flipped, true, cap);
     }
     // In front of the surface that they lie on, open caps count in depth-pass as well.
-    if (near || open) runs.add_near_caps(volume.near_cap_averted, true, open ? Role::OpenCap : cap);
-    if (far) {
+    if (ends.near || ends.open) {
+        runs.add_near_caps(volume.near_cap_averted, true, ends.open ? Role::OpenCap : cap);
+    }
+    if (ends.far) {
         runs.add_far_caps(volume.near_cap, true);
         runs.add_far_caps(volume.near_cap_flipped, false);
         runs.add_far_caps(volume.near_cap_averted, false);

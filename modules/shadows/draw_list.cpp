@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "internal/quad_pair.hpp"
+#include "internal/slabs.hpp"
 #include "internal/system_state.hpp"
 
 namespace gnomon::shadows {
@@ -323,6 +324,16 @@ void ShadowSystem::State::make_caps(VolumeDraw& draw, DrawOrigin& origin, PairSt
     origin.caps_made = true;
 }
 
+// Anew each time: they follow from the view, as scissors do.
+void ShadowSystem::State::choose_slabs(VolumeDraw& draw, const PairState& pair,
+                                       const LightState& light, const internal::ShadowHull& hull,
+                                       const internal::Reach& reach) const {
+    draw.slabs.clear();
+    if (reach.gaps == nullptr || draw.quads || draw.bounds.empty()) return;
+    const glm::dvec4 local(internal::current_light(pair, light).position);
+    internal::slabs_of(draw, hull, reach, *screen, local, options.fill.scissor);
+}
+
 // True where it is another than before, reasons aside.
 bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, const NearClip& clip,
                                     const Corners& seen) {
@@ -394,7 +405,10 @@ bool ShadowSystem::State::fill_draw(std::uint32_t index, LightState& light, cons
     }
     differs = differs || depth != draw.depth;
     draw.depth = depth;
-    const bool draws_caps = draw.far_caps || draw.near_caps;
+    choose_slabs(draw, pair, light, hull, reaches);
+    origin.in_slabs = !draw.slabs.empty();
+    differs = differs || origin.in_slabs;
+    const bool draws_caps = draw.far_caps || draw.near_caps || !draw.slabs.empty();
     if (draws_caps && !origin.hidden && draw.volume->made_with.caps.are_ranges_alone() &&
         !options.caps.are_ranges_alone()) {
         make_caps(draw, origin, pair);
@@ -408,6 +422,7 @@ void ShadowSystem::State::count_draws() {
     for (const DrawOrigin& origin : origins) {
         stats.silhouette_edges += origin.silhouette_edges;
         if (!origin.first) continue;
+        stats.pairs_in_slabs += origin.in_slabs ? 1 : 0;
         stats.pairs_hidden += origin.hidden ? 1 : 0;
         stats.pairs_clamped += origin.reach.clamped ? 1 : 0;
         stats.quad_pairs += origin.quads ? 1 : 0;

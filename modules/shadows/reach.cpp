@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "internal/finite.hpp"
+#include "internal/outline.hpp"
 
 namespace gnomon::shadows::internal {
 
@@ -76,6 +77,48 @@ void for_each_normal(const ShadowHull& hull, Visit&& visit) {
     }
 }
 
+void include_widest(Gaps& found, const Interval& gap, bool is_first) {
+    const auto width = [](const Interval& g) { return g.high - g.low; };
+    if (found.count == Gaps::most) {
+        const auto narrowest = std::ranges::min_element(found.gaps, {}, width);
+        if (width(*narrowest) >= width(gap)) return;
+        if (narrowest == found.gaps.begin()) found.first = false;
+        std::copy(narrowest + 1, found.gaps.end(), narrowest);
+        --found.count;
+    }
+    found.first = found.first || is_first;
+    found.gaps[found.count++] = gap;
+}
+
+std::shared_ptr<const Gaps> find_gaps(const ShadowHull& hull, const ReceiverTree& receivers,
+                                      double last_of_caster, const Reach& reach) {
+    Coverage along;
+    receivers.cover(hull, reach.normal, along);
+    Gaps found;
+    // Narrow ones save nothing worth speaking of.
+    const double narrow = (reach.distance - reach.first) / 32.0;
+    double at = last_of_caster;
+    bool any_before = false;
+    for (const Interval& covered : along.covered()) {
+        any_before = any_before || covered.low <= last_of_caster;
+        const Interval gap{at, std::min(covered.low, reach.distance)};
+        if (gap.high - gap.low > narrow) include_widest(found, gap, !any_before);
+        any_before = true;
+        at = std::max(at, covered.high);
+    }
+    if (found.count == 0) return nullptr;
+    found.boxes.fill(Aabb::nothing());
+    receivers.gather(hull, reach.normal, std::span(found.gaps).first(found.count),
+                     std::span(found.boxes).first(found.count + 1));
+    // The caster's own place counts, as it does for the whole.
+    if (!found.first) {
+        const Aabb& place = hull.caster();
+        found.boxes[0].include(
+            {glm::max(place.low, reach.box.low), glm::min(place.high, reach.box.high)});
+    }
+    return std::make_shared<const Gaps>(found);
+}
+
 }  // namespace
 
 Reach reach_of(const ShadowHull& hull, const ReceiverTree* receivers, const FillOptions& options) {
@@ -92,6 +135,7 @@ Reach reach_of(const ShadowHull& hull, const ReceiverTree* receivers, const Fill
 
     const double size = size_of(hull);
     double best = infinity;
+    double last_of_caster = 0.0;
     for_each_normal(hull, [&](const glm::dvec3& normal) {
         const Extent caster = along(hull, normal);
         if (!is_valid(hull, normal, caster, size)) return;
@@ -107,22 +151,31 @@ Reach reach_of(const ShadowHull& hull, const ReceiverTree* receivers, const Fill
         reach.clamped = true;
         reach.normal = normal;
         reach.distance = distance;
-        reach.margin = std::max(1e-3 * (distance - caster.low), 1e-5 * size);
+        reach.first = caster.low;
+        reach.least_room = 1e-5 * size;
+        last_of_caster = caster.high;
     });
     if (reach.clamped) {
         reach.plane_is_last =
             receivers->empty() || support(receivers->bounds(), reach.normal) <= reach.distance;
+        if (reach.any && options.slabs) {
+            reach.gaps = find_gaps(hull, *receivers, last_of_caster, reach);
+        }
     }
     return reach;
 }
 
-double plane_distance(const Reach& reach, const glm::dvec3& eye) {
+double plane_room(const Reach& reach, double distance, const glm::dvec3& eye) {
     // Receivers may lie on the plane itself. A rasteriser moves vertices by up to 1/512 of a pixel,
     // theirs and the far vertices: k pixels below the plane's horizon its depth is known to
     // 1/(256 k) of its distance from the eye. So much for 16 pixels: nearer to its horizon
     // little is seen of it, and more costs fill.
-    const double from_eye = std::abs(reach.distance - glm::dot(reach.normal, eye));
-    return reach.distance + reach.margin + from_eye / 4096.0;
+    const double from_eye = std::abs(distance - glm::dot(reach.normal, eye));
+    return std::max(1e-3 * (distance - reach.first), reach.least_room) + from_eye / 4096.0;
+}
+
+double plane_distance(const Reach& reach, const glm::dvec3& eye) {
+    return reach.distance + plane_room(reach, reach.distance, eye);
 }
 
 glm::dvec4 plane_in(const glm::dmat4& world_from_local, const glm::dvec3& normal, double distance) {
@@ -170,15 +223,9 @@ bool Screen::begins_below(const glm::dvec3& normal, double distance) const {
                                [&](const auto& p) { return glm::dot(normal, p) < distance; });
 }
 
-ScreenBounds Screen::of(std::span<const glm::dvec4> points) const {
+template <class Visit>
+bool Screen::for_each_seen(std::span<const glm::dvec4> points, Visit&& visit) const {
     std::array<glm::dvec3, 32> clip;  // x, y, w
-    glm::dvec2 low(infinity);
-    glm::dvec2 high(-infinity);
-    const auto include = [&](double x, double y, double w) {
-        const glm::dvec2 p(x / w, y / w);
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    };
     bool any_before = false;
     bool any_behind = false;
     const auto is_before = [&](const glm::dvec3& c, double weight) {
@@ -186,39 +233,62 @@ ScreenBounds Screen::of(std::span<const glm::dvec4> points) const {
     };
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::dvec4 c = clip_from_world_ * points[i];
-        if (!is_finite(c)) return {};
+        if (!is_finite(c)) return false;
         clip[i] = {c.x, c.y, c.w};
         if (is_before(clip[i], points[i].w)) {
             any_before = true;
-            include(c.x, c.y, c.w);
+            visit(c.x, c.y, c.w);
         } else {
             any_behind = true;
         }
     }
-    if (any_behind) {
-        if (!any_before) return ScreenBounds::nothing();
-        // Where lines between the two sides cross the near plane: all of the hull's edges are among
-        // them.
-        for (std::size_t a = 0; a < points.size(); ++a) {
-            if (!is_before(clip[a], points[a].w)) continue;
-            const double before = clip[a].z - nearest_ * points[a].w;
-            for (std::size_t b = 0; b < points.size(); ++b) {
-                if (is_before(clip[b], points[b].w)) continue;
-                const double behind = nearest_ * points[b].w - clip[b].z;
-                const double sum = before + behind;
-                if (!(sum > 0.0)) continue;
-                const glm::dvec3 c = (clip[a] * behind + clip[b] * before) / sum;
-                if (!(c.z > 0.0)) return {};
-                include(c.x, c.y, c.z);
-            }
+    if (!any_behind || !any_before) return true;
+    // Where lines between the two sides cross the near plane: all of the hull's edges are among
+    // them.
+    for (std::size_t a = 0; a < points.size(); ++a) {
+        if (!is_before(clip[a], points[a].w)) continue;
+        const double before = clip[a].z - nearest_ * points[a].w;
+        for (std::size_t b = 0; b < points.size(); ++b) {
+            if (is_before(clip[b], points[b].w)) continue;
+            const double behind = nearest_ * points[b].w - clip[b].z;
+            const double sum = before + behind;
+            if (!(sum > 0.0)) continue;
+            const glm::dvec3 c = (clip[a] * behind + clip[b] * before) / sum;
+            if (!(c.z > 0.0)) return false;
+            visit(c.x, c.y, c.z);
         }
     }
+    return true;
+}
+
+ScreenBounds Screen::of(std::span<const glm::dvec4> points) const {
+    glm::dvec2 low(infinity);
+    glm::dvec2 high(-infinity);
+    const bool known = for_each_seen(points, [&](double x, double y, double w) {
+        const glm::dvec2 p(x / w, y / w);
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    });
+    if (!known) return {};
+    if (low.x == infinity) return ScreenBounds::nothing();
     if (!is_finite(low) || !is_finite(high)) return {};
     const auto outward = [](const glm::dvec2& p, double by) {
         return glm::vec2(glm::clamp(p + by * (1e-6 + 1e-6 * glm::abs(p)), -2.0, 2.0));
     };
     const ScreenBounds bounds{outward(low, -1.0), outward(high, 1.0)};
     return intersection(bounds, {});
+}
+
+double Screen::area_of(std::span<const glm::dvec4> points, const ScreenBounds& within) const {
+    std::array<glm::dvec2, 32 + 16 * 16> seen;
+    std::size_t count = 0;
+    const bool known = for_each_seen(points, [&](double x, double y, double w) {
+        seen[count++] = {x / w, y / w};
+    });
+    const glm::dvec2 low(within.min);
+    const glm::dvec2 high(within.max);
+    if (!known) return (high.x - low.x) * (high.y - low.y);
+    return hull_area_within(std::span(seen).first(count), low, high);
 }
 
 ScreenBounds Screen::of(const Aabb& box) const {

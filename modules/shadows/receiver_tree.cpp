@@ -102,6 +102,51 @@ void ReceiverTree::reach(const ShadowHull& hull, Reached& reached) const {
     }
 }
 
+template <class Wanted, class Take>
+void ReceiverTree::for_each_met(const ShadowHull& hull, const glm::dvec3& normal, Wanted&& wanted,
+                                Take&& take) const {
+    if (nodes_.empty()) return;
+    const Aabb shadow = hull.bounds_in(bounds());
+    std::size_t i = 0;
+    while (i < nodes_.size()) {
+        const Node& node = nodes_[i];
+        const Aabb within = hull.bounds_in(
+            {glm::max(node.box.low, shadow.low), glm::min(node.box.high, shadow.high)});
+        const Interval along{-support(within, -normal), support(within, normal)};
+        if (within.empty() || !wanted(within, along) || !hull.may_meet(node.box)) {
+            i = node.next;
+            continue;
+        }
+        if (node.is_leaf) take(within, along);
+        ++i;
+    }
+}
+
+void ReceiverTree::cover(const ShadowHull& hull, const glm::dvec3& normal, Coverage& along) const {
+    for_each_met(
+        hull, normal, [&](const Aabb&, const Interval& interval) { return !along.holds(interval); },
+        [&](const Aabb&, const Interval& interval) { along.add(interval); });
+}
+
+void ReceiverTree::gather(const ShadowHull& hull, const glm::dvec3& normal,
+                          std::span<const Interval> free, std::span<Aabb> boxes) const {
+    const auto part_of = [&](const Interval& interval) {
+        std::size_t i = 0;
+        while (i < free.size() && free[i].high <= interval.low) ++i;
+        return i;
+    };
+    for_each_met(
+        hull, normal,
+        [&](const Aabb& within, const Interval& interval) {
+            const std::size_t i = part_of(interval);
+            const bool is_of_one = i == free.size() || interval.high <= free[i].low;
+            return !is_of_one || !boxes[i].holds(within);
+        },
+        [&](const Aabb& within, const Interval& interval) {
+            boxes[part_of(interval)].include(within);
+        });
+}
+
 std::size_t ReceiverTree::memory_bytes() const {
     return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(std::uint32_t);
 }

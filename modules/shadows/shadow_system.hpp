@@ -37,6 +37,7 @@
 #include <gnomon/shadows/technique.hpp>
 #include <gnomon/shadows/view.hpp>
 #include <gnomon/shadows/volume.hpp>
+#include <gnomon/shadows/volume_slab.hpp>
 
 namespace gnomon::shadows {
 
@@ -104,6 +105,10 @@ struct VolumeDraw {
     /// Nothing changes where the depth that is stored lies outside, on a surface. All of it without
     /// FillOptions::depth_bounds.
     DepthBounds depth;
+    /// Where not empty, these may be drawn instead of the whole, each with the same triangles,
+    /// technique and extrusion: no receiver that the light reaches lies in what they leave out. The
+    /// whole is as right.
+    std::vector<VolumeSlab> slabs;
 };
 
 /// The volumes of one light: draws[first .. first + count).
@@ -131,7 +136,8 @@ struct FrameStats {
     std::uint64_t pairs_hidden = 0;  ///< with a volume that changes nothing in this view
     /// Of the culled and hidden ones: whose caster lies in another's umbra.
     std::uint64_t pairs_in_umbra = 0;
-    std::uint64_t pairs_clamped = 0;  ///< of all pairs drawn: far vertices on a plane
+    std::uint64_t pairs_clamped = 0;   ///< of all pairs drawn: far vertices on a plane
+    std::uint64_t pairs_in_slabs = 0;  ///< of those that are seen: VolumeDraw::slabs
     std::uint64_t pairs_redetected = 0;
     std::uint64_t pairs_reused = 0;
     std::uint64_t zpass_pairs = 0;

@@ -42,7 +42,8 @@ std::vector<ClipTriangle> clip_triangles(const shadows::VolumeDraw& draw,
     };
     std::vector<ClipTriangle> triangles;
     std::vector<shadow_pass::internal::Run> runs;
-    shadow_pass::internal::runs_of(draw, *draw.volume, {}, runs);
+    const auto ends = shadow_pass::internal::ends_of(draw, nullptr, {});
+    shadow_pass::internal::append_runs(*draw.volume, ends, runs);
     for (const shadow_pass::internal::Run& run : runs) {
         for (std::uint32_t i = run.first; i < run.first + run.count; i += 3) {
             std::array<std::uint32_t, 3> corners{};

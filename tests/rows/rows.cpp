@@ -262,6 +262,43 @@ Setting wall_of_bricks() {
     return s.finish();
 }
 
+// A ring high above a box above the ground, and a plate that is not drawn beside it: nothing
+// receives on most of the light's way.
+Stage far_apart(const glm::dvec3& at = glm::dvec3(0.0)) {
+    Stage s;
+    s.ground(20.0F, moved(at));
+    s.place(torus(), moved(at + glm::dvec3(0, 9.0, 0)) * turned(25, {1, 0, 0.3}));
+    s.place(box(0.8F), moved(at + glm::dvec3(0.6, 4.5, 0.2)) * turned(30, {0.2, 1, 0.1}));
+    s.place(box(1.5F), moved(at + glm::dvec3(-3.0, 8.0, 0)) * scaled({1, 0.1, 1}), true, false);
+    s.place(box(0.6F), moved(at + glm::dvec3(-2.6, 0.3, 0.4)));
+    return s;
+}
+
+Setting gaps_under_a_sun_and_a_lamp() {
+    Stage s = far_apart();
+    s.sun({0.1, -1.0, 0.05});
+    s.lamp({-1.0, 14.0, 0.5});
+    s.look({3.0, 3.0, 11.0}, {-0.5, 3.6, 0});
+    return s.finish();
+}
+
+Setting eye_in_a_gap() {
+    Stage s = far_apart();
+    s.sun({0.1, -1.0, 0.05});
+    s.lamp({0.2, 14.0, 0.5}, 15.0);
+    s.look({0.9, 2.2, 0.9}, {-2.6, 0.3, 0.2}, 80.0);
+    return s.finish();
+}
+
+Setting gaps_far_from_the_origin() {
+    const glm::dvec3 away(-3.0e6, 1.0e6, 2.0e6);
+    Stage s = far_apart(away);
+    s.sun({0.1, -1.0, 0.05});
+    s.look_orthographic(away + glm::dvec3(2.0, 7.0, 9.0), away + glm::dvec3(-0.8, 2.4, 0), 3.6, 0.1,
+                        30.0);
+    return s.finish();
+}
+
 }  // namespace
 
 const std::vector<Row>& rows() {
@@ -283,6 +320,9 @@ const std::vector<Row>& rows() {
         {"flat_scale", flat_scale},
         {"far_from_the_origin", far_from_the_origin},
         {"wall_of_bricks", wall_of_bricks},
+        {"gaps_under_a_sun_and_a_lamp", gaps_under_a_sun_and_a_lamp},
+        {"eye_in_a_gap", eye_in_a_gap},
+        {"gaps_far_from_the_origin", gaps_far_from_the_origin},
         {"culled_back_faces", eye_inside_a_volume, true},
     };
     return all;

@@ -254,6 +254,7 @@ TEST_F(Fill, WhatIsSeenIsThatOfASystemThatSawNothingBefore) {
                 ASSERT_EQ(draw->world_from_far, other.world_from_far);
                 ASSERT_EQ(draw->bounds, other.bounds);
                 ASSERT_EQ(draw->depth, other.depth);
+                ASSERT_EQ(draw->slabs, other.slabs);
                 ASSERT_EQ(draw->technique, other.technique);
                 ASSERT_EQ(draw->far_caps, other.far_caps);
                 ASSERT_EQ(draw->volume->silhouette_edges, other.volume->silhouette_edges);

@@ -59,7 +59,8 @@ std::string described(const VolumeDraw& draw) {
         for (const std::uint32_t index : one) put(index);
     }
     // How caps are put together is said where one is drawn, else which faces they are.
-    const bool caps = draw.technique == Technique::DepthFail || draw.near_caps || draw.far_caps;
+    const bool caps = draw.technique == Technique::DepthFail || draw.near_caps || draw.far_caps ||
+                      !draw.slabs.empty();
     for (const CapList& list : volume.near_caps()) {
         put(list.faces);
         for_each_cap_face(*draw.mesh, volume, list, put);
@@ -91,6 +92,15 @@ std::string described(const VolumeDraw& draw) {
     put(draw.near_caps);
     put(draw.mirrored);
     put(draw.batch);
+    for (const VolumeSlab& slab : draw.slabs) {
+        put(slab.world_from_near);
+        put(slab.world_from_far);
+        put(slab.bounds.min);
+        put(slab.bounds.max);
+        put(slab.from_plane);
+        put(slab.near_caps);
+        put(slab.far_caps);
+    }
     return text;
 }
 
@@ -329,9 +339,9 @@ TEST_P(ManyPairs, SayWhyEachIsWhatItIsAndWhetherTheListIsAnother) {
                 // A detector may find that nothing changed though the light moved on.
                 // Caps are put together when one is drawn.
                 const auto& had = known[{draw.light, draw.caster}];
-                const bool capped =
-                    had != nullptr && had->made_with.caps.are_ranges_alone() &&
-                    (draw.technique == Technique::DepthFail || draw.near_caps || draw.far_caps);
+                const bool capped = had != nullptr && had->made_with.caps.are_ranges_alone() &&
+                                    (draw.technique == Technique::DepthFail || draw.near_caps ||
+                                     draw.far_caps || !draw.slabs.empty());
                 ASSERT_TRUE(kept || capped || !says_kept) << to_string(draw.reason);
             }
             if (std::pair(draw.light, draw.caster) != last) {

@@ -89,6 +89,18 @@ float depth_of(const View& view, const glm::dvec3& p) {
     return std::clamp(static_cast<float>(clip.z / clip.w), 0.0F, 1.0F);
 }
 
+// Of a shadowed point of a receiver.
+void expect_outside_of(const Gaps& gaps, double along, const glm::dvec3& p) {
+    std::size_t part = 0;
+    while (part < gaps.count && gaps.gaps[part].low + 1e-9 < along) {
+        ASSERT_GE(along, gaps.gaps[part].high - 1e-9);
+        ++part;
+    }
+    ASSERT_FALSE(gaps.first && part == 0);
+    const Aabb& box = gaps.boxes[part];
+    ASSERT_TRUE((Aabb{box.low - 1e-9, box.high + 1e-9}.holds({p, p})));
+}
+
 TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
     GNOMON_RANDOM(random);
     std::uint64_t in_shadow = 0;
@@ -96,6 +108,7 @@ TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
     std::uint64_t seen = 0;
     std::uint64_t cut = 0;
     std::uint64_t bounded = 0;
+    std::uint64_t about_gaps = 0;
     for (int scene = 0; scene < 4'000; ++scene) {
         const OrientedBounds caster = random_box(random, 1.5, 4.0);
         const Light light = random_light(random, 8.0);
@@ -131,6 +144,11 @@ TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
             if (reach.clamped) {
                 ASSERT_LT(glm::dot(reach.normal, p), plane) << scene;
             }
+            if (reach.gaps != nullptr) {
+                ++about_gaps;
+                expect_outside_of(*reach.gaps, glm::dot(reach.normal, p), p);
+                if (HasFatalFailure()) FAIL() << scene;
+            }
             const auto place = place_of(view, p);
             if (!place) continue;
             ++seen;
@@ -150,6 +168,7 @@ TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
     EXPECT_GT(clamped, 2'000U);
     EXPECT_GT(cut, 500U);
     EXPECT_GT(bounded, 500U);
+    EXPECT_GT(about_gaps, 500U);
 }
 
 TEST(Reach, AVolumeThatEndsOnThePlaneIsWithinTheScissorWhole) {
@@ -230,7 +249,7 @@ TEST(Reach, AGroundEndsTheShadowsOfWhatStandsOnIt) {
         ASSERT_TRUE(reach.clamped);
         EXPECT_EQ(reach.normal, glm::dvec3(0, -1, 0));
         EXPECT_NEAR(reach.distance, 0.1, 1e-6);
-        EXPECT_LT(reach.margin, 0.02);
+        EXPECT_LT(plane_distance(reach, {0, 2, 0}) - reach.distance, 0.02);
     }
     // A lamp within the caster, or beside it and all but touching.
     EXPECT_FALSE(reach_of({pillar, {.position_world = {0, 1, 0, 1}}}, &tree, {}).clamped);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // What FillOptions leave out, no pixel can tell. Culls and scissors: the same bytes on every
-// surface, whatever else is left out; of umbrae: zero stays zero, and all else is not. Clamping and
-// depth bounds: no pixel is wrong outside the band either way; those within it that differ are
-// counted.
+// surface, whatever else is left out; of umbrae: zero stays zero, and all else is not. Clamping,
+// slabs and depth bounds: no pixel is wrong outside the band either way; those within it that
+// differ are counted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,6 +65,7 @@ protected:
 
     struct Counts {
         std::uint64_t clamped = 0;        // pairs
+        std::uint64_t in_slabs = 0;       // pairs
         std::uint64_t depth_bounded = 0;  // pairs that may be
     };
     // SwiftShader snaps vertices to sixteenths of a pixel, as wide as the band: some pixels beside
@@ -98,6 +99,10 @@ protected:
             if (!without.clamp) {
                 EXPECT_EQ(plain.list.stats.pairs_clamped, 0U);
             }
+            counts.in_slabs += with_all.list.stats.pairs_in_slabs;
+            if (!without.slabs || !without.clamp) {
+                EXPECT_EQ(plain.list.stats.pairs_in_slabs, 0U);
+            }
             counts.depth_bounded += static_cast<std::uint64_t>(
                 std::ranges::count_if(with_all.list.draws, [](const auto& draw) {
                     return draw.technique == shadows::Technique::DepthPass &&
@@ -105,8 +110,9 @@ protected:
                 }));
             differ += compare(with_all, plain).shadow;
         }
-        std::printf("%s: %llu pairs clamped, %llu of %llu pixels differ\n", GetParam().name.c_str(),
-                    static_cast<unsigned long long>(counts.clamped),
+        std::printf("%s: %llu pairs clamped, %llu in slabs, %llu of %llu pixels differ\n",
+                    GetParam().name.c_str(), static_cast<unsigned long long>(counts.clamped),
+                    static_cast<unsigned long long>(counts.in_slabs),
                     static_cast<unsigned long long>(differ),
                     static_cast<unsigned long long>(judged));
         return counts;
@@ -118,7 +124,8 @@ TEST_P(Savings, of_culls_and_scissors_change_no_byte_on_a_surface) {
         std::pair{"view cull", FillOptions{.cull_by_view = false}},
         std::pair{"receiver cull", FillOptions{.cull_by_receivers = false}},
         std::pair{"scissor", FillOptions{.scissor = false}},
-        std::pair{"all three", FillOptions{false, false, true, false}},
+        std::pair{"all three",
+                  FillOptions{.cull_by_view = false, .cull_by_receivers = false, .scissor = false}},
     };
     for (std::size_t i = 0; i < rows().size(); ++i) {
         if (!falls_to(number(), i, 2)) continue;
@@ -157,6 +164,11 @@ TEST_P(Savings, of_umbrae_leave_no_shadow_out) {
 TEST_P(Savings, of_clamping_are_right_outside_the_band) {
     const Counts counts = judge_without(FillOptions::none());
     EXPECT_GT(counts.clamped, 0U);
+}
+
+TEST_P(Savings, of_slabs_are_right_outside_the_band) {
+    const Counts counts = judge_without({.slabs = false});
+    EXPECT_GT(counts.in_slabs, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, Savings, testing::ValuesIn(drawing_devices()), device_case_name);

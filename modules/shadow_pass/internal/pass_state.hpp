@@ -75,6 +75,7 @@ struct ShadowPass::State {
     PassStats stats;
     // Between two lights' worth of work, for their memory alone.
     std::vector<Run> runs;
+    std::vector<std::size_t> run_ends;  // of each key
     std::vector<internal::DrawKey> keys;
 
     State(gpu::Device& d, const ShadowPassDesc& description);
@@ -98,9 +99,14 @@ struct ShadowPass::State {
     bool find_changed_lights(const shadows::DrawList& list, bool finite);
     void make_keys(const shadows::DrawList& list, const shadows::LightDraws& light,
                    const PreparedLight* before);
+    void add_key(const shadows::VolumeDraw& draw, const shadows::VolumeSlab* slab,
+                 std::uint32_t instance, const PreparedLight* before);
     Status make_calls(const shadows::DrawList& list, PreparedLight& light);
-    Status add_calls(const shadows::DrawList& list, std::uint32_t i, PreparedLight& light);
-    Status add_quad_calls(const shadows::DrawList& list, std::uint32_t i, PreparedLight& light);
+    /// `of_draw`: its slabs' keys, or its own.
+    Status add_calls(const shadows::DrawList& list, std::uint32_t i,
+                     std::span<const internal::DrawKey> of_draw, PreparedLight& light);
+    Status add_quad_calls(const shadows::DrawList& list, std::uint32_t i,
+                          const internal::DrawKey& key, PreparedLight& light);
     [[nodiscard]] bool unclipped(const PreparedLight& light) const {
         return light.finite && device->caps().features.unclipped_depth;
     }

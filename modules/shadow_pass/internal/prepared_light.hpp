@@ -38,17 +38,17 @@ struct Call {
 /// Counts are sums, so that no order of volumes within a batch changes a byte.
 void sort_calls(std::vector<Call>& calls, const shadows::PixelRect& everything);
 
-/// All that a draw's calls depend on.
+/// All that the calls of a draw, or of one of its slabs, depend on.
 struct DrawKey {
     std::uint64_t revision = 0;
     std::uint64_t mesh = 0;
+    std::uint32_t instance = 0;  ///< its element of VolumeInstances
     shadows::PixelRect wanted;   ///< the scissor that its bounds ask for
     shadows::PixelRect scissor;  ///< and what was chosen
     shadows::DepthBounds depth;  ///< where the adapter has such
     std::uint32_t batch = 0;
     shadows::Technique technique = shadows::Technique::DepthFail;
-    bool near_caps = false;
-    bool far_caps = false;
+    Ends ends;
     bool mirrored = false;
     bool hidden = false;
     bool operator==(const DrawKey&) const = default;

@@ -29,10 +29,21 @@ struct Run {
     Role role = Role::Volume;
 };
 
-/// Into `runs`, in an order that changes state seldom; neighbours that are drawn alike are one.
-/// `volume`, whose ranges alone are read, is the draw's or in its place.
-void runs_of(const shadows::VolumeDraw& draw, const shadows::Volume& volume,
-             const ShadowPassDesc& desc, std::vector<Run>& runs);
+/// Which caps close a volume, and how they meet surfaces.
+struct Ends {
+    bool near = true;
+    bool far = true;
+    bool open = false;    ///< averted near caps are in front of what they lie on
+    bool biased = false;  ///< near caps are behind it
+    bool operator==(const Ends&) const = default;
+};
+/// Of a slab of the draw, or of the whole where that is null.
+[[nodiscard]] Ends ends_of(const shadows::VolumeDraw& draw, const shadows::VolumeSlab* slab,
+                           const ShadowPassDesc& desc);
+
+/// Behind what `runs` has, in an order that changes state seldom; neighbours that are drawn alike
+/// are one. Of `volume` ranges alone are read.
+void append_runs(const shadows::Volume& volume, const Ends& ends, std::vector<Run>& runs);
 
 /// The near caps of the faces that cast, whatever the technique, without those that are undone: for
 /// Part::Caps.

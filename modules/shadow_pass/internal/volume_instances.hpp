@@ -27,7 +27,19 @@ struct VolumeInstance {
 };
 static_assert(sizeof(VolumeInstance) == 148);
 
+/// What an element follows from, under one view.
+struct InstanceSource {
+    glm::dmat4 world_from_near;
+    glm::dmat4 world_from_far;
+    glm::vec4 far_offset;
+    float far_scale;
+    bool operator==(const InstanceSource&) const = default;
+};
+
 /// Products in double, rounded once: the scene must be drawn with these very bits.
+[[nodiscard]] VolumeInstance instance_of(const InstanceSource& source,
+                                         const glm::dmat4& clip_from_world);
+/// Of a volume as a whole.
 [[nodiscard]] VolumeInstance instance_of(const shadows::VolumeDraw& draw,
                                          const glm::dmat4& clip_from_world);
 [[nodiscard]] gpu::VertexBufferLayout instance_layout();
@@ -36,10 +48,13 @@ class VolumeInstances {
 public:
     explicit VolumeInstances(gpu::Device& device) : device_(&device) {}
 
-    /// Element i is of list.draws[i]. Uploads those that are not what they were, and adds their
-    /// size to `uploaded`. Cost: linear in the draws; a matrix product for each that changed.
+    /// Element i is of list.draws[i] as a whole; behind all of these come those of slabs. Uploads
+    /// those that are not what they were, and adds their size to `uploaded`. Cost: linear in the
+    /// draws; a matrix product for each that changed.
     Status update(const shadows::DrawList& list, const shadows::View& view,
                   std::uint64_t& uploaded);
+    /// Of the first of VolumeDraw::slabs of draw i; the others follow.
+    [[nodiscard]] std::uint32_t first_slab(std::size_t i) const { return first_slabs_[i]; }
     /// Nothing is known to be on the GPU.
     void forget() { sources_.clear(); }
 
@@ -49,19 +64,18 @@ public:
     [[nodiscard]] bool changed(std::size_t i) const { return changed_[i] != 0; }
 
 private:
-    // What an element follows from, under one view.
-    struct Source {
-        glm::dmat4 world_from_local;
-        glm::dmat4 world_from_far;
-        glm::vec4 far_offset;
-        float far_scale;
-    };
+    void number(const shadows::DrawList& list);
+    void renew(std::size_t i, const InstanceSource& source);
+    Status make_room();
 
     gpu::Device* device_;
     gpu::Buffer buffer_;
     std::size_t capacity_ = 0;
     glm::dmat4 clip_from_world_{0.0};
-    std::vector<Source> sources_;
+    std::size_t count_ = 0;
+    std::size_t known_ = 0;  // of sources_, from the last time
+    std::vector<std::uint32_t> first_slabs_;
+    std::vector<InstanceSource> sources_;
     std::vector<VolumeInstance> instances_;
     std::vector<unsigned char> changed_;
 };

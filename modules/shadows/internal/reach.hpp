@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include <glm/glm.hpp>
@@ -21,17 +22,32 @@
 
 namespace gnomon::shadows::internal {
 
+/// Where along a normal, between caster and plane, the shadow meets no receiver.
+struct Gaps {
+    static constexpr std::size_t most = 3;
+    /// Behind the caster, ascending, the widest ones. Receivers may lie on either end.
+    std::array<Interval, most> gaps{};
+    std::size_t count = 0;
+    /// What receives before, between and behind them, cut off where the shadow ends.
+    std::array<Aabb, most + 1> boxes{};
+    /// Nothing receives before the first one, the caster neither.
+    bool first = false;
+};
+
 struct Reach {
     bool any = true;  ///< a receiver, or receivers are not known
     /// Far vertices go onto a plane, else to infinity: whatever receivers there are.
     bool clamped = false;
     /// No receiver at all lies beyond the plane.
     bool plane_is_last = false;
-    /// The plane: dot(normal, p) = distance + margin; the light and the caster lie below. Unit
+    /// The plane: dot(normal, p) = plane_distance(); the light and the caster lie below. Unit
     /// length.
     glm::dvec3 normal{0.0};
     double distance = 0.0;
-    double margin = 0.0;  ///< what receivers and caster are away from it at least
+    double first = 0.0;       ///< where the caster begins along the normal
+    double least_room = 0.0;  ///< what receivers and caster are away from any plane at least
+    /// Null where nothing is to be left out between caster and plane.
+    std::shared_ptr<const Gaps> gaps;
     /// What receives, cut off where the shadow ends; all that the shadow covers where receivers may
     /// be anywhere.
     Aabb box = Aabb::nothing();
@@ -44,8 +60,10 @@ struct Reach {
 [[nodiscard]] Reach reach_of(const ShadowHull& hull, const ReceiverTree* receivers,
                              const FillOptions& options);
 
-/// The plane as the view needs it: moved away by what single precision may do at the eye's
-/// distance.
+/// How far a plane must be from receivers at `distance` along the normal, for what single precision
+/// may do there and at the eye's distance.
+[[nodiscard]] double plane_room(const Reach& reach, double distance, const glm::dvec3& eye);
+/// The plane as the view needs it, so far behind the last receiver.
 [[nodiscard]] double plane_distance(const Reach& reach, const glm::dvec3& eye);
 
 /// Takes points of a caster's space to the plane, from the light (a point, or a direction towards
@@ -71,13 +89,23 @@ public:
     [[nodiscard]] ScreenBounds of(const ShadowHull& hull, const Reach& reach, double plane) const;
     /// Of a finite box.
     [[nodiscard]] ScreenBounds of(const Aabb& box) const;
+    /// Of the hull of these points, relative to the eye, homogeneous, at most 32: where it is on
+    /// the picture.
+    [[nodiscard]] ScreenBounds of(std::span<const glm::dvec4> points) const;
+    /// And how much of `within` it covers, where the whole picture is 4. Cost: some thousand flops.
+    [[nodiscard]] double area_of(std::span<const glm::dvec4> points,
+                                 const ScreenBounds& within) const;
     /// The stored depths of what a shadow can change, wherever on the picture: the same volume,
     /// the same receivers. Cost: some hundred flops.
     [[nodiscard]] DepthBounds depth_of(const ShadowHull& hull, const Reach& reach,
                                        double plane) const;
 
 private:
-    [[nodiscard]] ScreenBounds of(std::span<const glm::dvec4> points) const;
+    /// Calls visit(double x, double y, double w), in clip space, for points whose hull on the
+    /// picture is that of what the near plane leaves of these points' hull. False where that cannot
+    /// be told.
+    template <class Visit>
+    [[nodiscard]] bool for_each_seen(std::span<const glm::dvec4> points, Visit&& visit) const;
     [[nodiscard]] double stored_depth(double ahead) const;
 
     glm::dmat4 clip_from_world_;  // relative to the eye

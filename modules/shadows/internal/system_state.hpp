@@ -32,6 +32,7 @@ struct DrawOrigin {
     Technique technique = Technique::DepthFail;  ///< the draw's
     bool quads = false;                          ///< the draw has some
     bool hidden = false;                         ///< its bounds are empty
+    bool in_slabs = false;
     bool reach_known = false;
     bool technique_known = false;  ///< that `technique` is right for this frame
     bool bounds_known = false;     ///< that the draw's bounds are
@@ -156,6 +157,9 @@ struct ShadowSystem::State {
     [[nodiscard]] bool fill_draw(std::uint32_t index, internal::LightState& light,
                                  const internal::NearClip& clip,
                                  const std::array<glm::dvec3, 8>& seen);
+    void choose_slabs(VolumeDraw& draw, const internal::PairState& pair,
+                      const internal::LightState& light, const internal::ShadowHull& hull,
+                      const internal::Reach& reach) const;
     void make_caps(VolumeDraw& draw, DrawOrigin& origin, internal::PairState& pair) const;
     void renew_revisions();
     void count_draws();
