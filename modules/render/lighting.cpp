@@ -45,7 +45,7 @@ bool may_show_sphere(const shadows::View& view, const glm::dvec3& center, double
 std::vector<FrameLight> frame_lights(const scene::Scene& scene, const scene::Bounds& bounds,
                                      std::span<const shadows::LightDraws> lights,
                                      std::span<const scene::Entity> unshadowed,
-                                     const shadows::View& view) {
+                                     const shadows::View& view, std::optional<float> exposure) {
     const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : bounds.center();
     const double radius = std::max(bounds.diagonal() * 0.5, 1e-30);
     std::vector<FrameLight> result;
@@ -107,21 +107,22 @@ std::vector<FrameLight> frame_lights(const scene::Scene& scene, const scene::Bou
         sum += e;
     }
     const double together = strongest + 0.35 * (std::min(sum, 3.0 * strongest) - strongest);
-    const float exposure = together > 0.0 ? static_cast<float>(3.4 / together) : 0.0F;
+    const float scale =
+        exposure.value_or(together > 0.0 ? static_cast<float>(3.4 / together) : 0.0F);
     for (FrameLight& light : result) {
-        light.uniforms.color.r *= exposure;
-        light.uniforms.color.g *= exposure;
-        light.uniforms.color.b *= exposure;
+        light.uniforms.color.r *= scale;
+        light.uniforms.color.g *= scale;
+        light.uniforms.color.b *= scale;
     }
     return result;
 }
 
 RoundUniforms round_uniforms(const shadows::View& view, std::span<const FrameLight> lights,
-                             bool first) {
+                             const Environment& environment, bool first) {
     const glm::vec3 up(glm::dmat3(view.view_from_world) * glm::dvec3(0.0, 1.0, 0.0));
     RoundUniforms round{
-        .sky = {0.135F, 0.165F, 0.215F, 0.0F},
-        .ground = {0.075F, 0.066F, 0.058F, 0.0F},
+        .sky = glm::vec4(environment.sky, 0.0F),
+        .ground = glm::vec4(environment.ground, 0.0F),
         .up_view = glm::vec4(up, perspective_flag(view)),
         .depth_range = depth_range(view),
         .lit_by = {static_cast<std::uint32_t>(lights.size()), first ? 1U : 0U, 0U, 0U},

@@ -170,7 +170,7 @@ Status Renderer::State::write_rounds(const FrameInput& input) {
     std::vector<std::byte> bytes(count * round_stride);
     for (std::size_t round = 0; round < count; ++round) {
         internal::RoundUniforms uniforms =
-            internal::round_uniforms(input.view, lights_of(round), round == 0);
+            internal::round_uniforms(input.view, lights_of(round), input.environment, round == 0);
         const bool fades = desc.averted_faces == shadow_pass::AvertedFaces::Shadowed;
         for (internal::LightUniforms& light : uniforms.lights) {
             light.spot_range.z = fades ? 1.0F : 0.0F;
@@ -204,7 +204,7 @@ gpu::RenderPassDesc Renderer::State::picture_pass(std::string label, gpu::LoadOp
     return {.label = std::move(label),
             .color_attachments = {{.texture = targets.radiance,
                                    .load_op = color,
-                                   .clear_value = {0.20, 0.26, 0.34, 1.0}}},
+                                   .clear_value = {background.r, background.g, background.b, 1.0}}},
             .depth_stencil = gpu::DepthStencilAttachment{.texture = targets.depth_stencil}};
 }
 
@@ -372,6 +372,7 @@ void Renderer::State::find_contents(const FrameInput& input) {
     contents.draws = draws.group;
     contents.rounds = rounds.group;
     contents.unclipped = unclipped;
+    contents.background = background;
 }
 
 // Into the encoder.
@@ -413,7 +414,8 @@ Status Renderer::render(const FrameInput& input) {
     // Once an upload: it visits every vertex, and exposure had better not follow what moves.
     if (!s.bounds) s.bounds = scene::world_bounds(input.scene);
     s.lights = internal::frame_lights(input.scene, *s.bounds, input.shadows.lights,
-                                      input.unshadowed, input.view);
+                                      input.unshadowed, input.view, input.environment.exposure);
+    s.background = input.environment.background;
     std::erase_if(s.lights, [&](const internal::FrameLight& light) {
         const bool asked_for = light.draws && input.after_light;
         return !light.in_view && !asked_for;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,17 @@ struct RendererDesc {
     bool meter_fill = false;  ///< for Renderer::measure_fill()
 };
 
+/// What there is without any light, and how bright lights come out. Linear; the defaults are a
+/// neutral day, whose exposure suits whatever is lit.
+struct Environment {
+    glm::vec3 sky{0.135F, 0.165F, 0.215F};      ///< what comes from straight above
+    glm::vec3 ground{0.075F, 0.066F, 0.058F};   ///< and from straight below
+    glm::vec3 background{0.20F, 0.26F, 0.34F};  ///< where nothing is drawn
+    /// By which lux and candela are multiplied. Without it, such that the strongest light on the
+    /// scene exposes a white surface well: then the picture's brightness follows lights that move.
+    std::optional<float> exposure = std::nullopt;
+};
+
 struct FrameInput {
     const scene::Scene&
         scene;  ///< world transforms up to date; upload() has seen its meshes and materials
@@ -68,6 +80,7 @@ struct FrameInput {
     /// Lights that are not in `shadows` and shine all the same, through everything
     /// (choose_shadowed_lights()).
     std::span<const scene::Entity> unshadowed = {};
+    Environment environment = {};
 };
 
 /// Of the last render(), on the CPU.

@@ -46,7 +46,7 @@ Frame draw(gpu::Device& device, const Setting& setting, std::uint32_t samples,
                                                    : std::span(none.unshadowed)));
     const shadows::DrawList& list = std::move(frame).finish(setting.view);
     Frame result;
-    render::FrameInput input{setting.scene, setting.view, list, {}, {}};
+    render::FrameInput input{setting.scene, setting.view, list, {}, {}, {}};
     if (lights == Lights::Unshadowed) input.unshadowed = none.unshadowed;
     if (read_masks) {
         input.after_light = [&](std::size_t light) -> Status {

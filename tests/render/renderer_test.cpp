@@ -21,7 +21,8 @@ const Row& row(const char* name) {
 
 // Draws one frame and gives the finished picture's bytes.
 Result<std::vector<std::byte>> draw(gpu::Device& device, const Setting& setting,
-                                    const render::RendererDesc& desc) {
+                                    const render::RendererDesc& desc,
+                                    const render::Environment& environment = {}) {
     auto renderer = render::Renderer::create(device, desc);
     if (!renderer) return forward_error(renderer);
     if (const Status uploaded = renderer->upload(setting.scene); !uploaded)
@@ -32,7 +33,10 @@ Result<std::vector<std::byte>> draw(gpu::Device& device, const Setting& setting,
     if (const Status submitted = adapter.submit(setting.scene, frame); !submitted)
         return forward_error(submitted);
     const shadows::DrawList list = std::move(frame).finish(setting.view);
-    const Status rendered = renderer->render({setting.scene, setting.view, list, {}});
+    const Status rendered = renderer->render({.scene = setting.scene,
+                                              .view = setting.view,
+                                              .shadows = list,
+                                              .environment = environment});
     if (!rendered) return forward_error(rendered);
     return device.read_texture(renderer->picture());
 }
@@ -85,6 +89,29 @@ TEST_P(Renderer, a_light_at_the_eye_leaves_no_black_pixels) {
         black += rgba[i] == std::byte{0} && rgba[i + 1] == std::byte{0} ? 1U : 0U;
     }
     EXPECT_EQ(black, 0U);
+}
+
+TEST_P(Renderer, an_environment_says_what_is_seen_without_light_and_how_bright_light_is) {
+    const Setting setting = row("hidden_caster").make();
+    const auto pixel = [](const std::vector<std::byte>& rgba, std::size_t at) {
+        return std::to_integer<int>(rgba[at]) + std::to_integer<int>(rgba[at + 1]) +
+               std::to_integer<int>(rgba[at + 2]);
+    };
+    const auto sum = [&](const render::Environment& environment) {
+        const auto rgba = must(draw(device(), setting, small, environment));
+        double all = 0.0;
+        for (std::size_t i = 0; i < rgba.size(); i += 4) all += pixel(rgba, i);
+        return all;
+    };
+    const glm::vec3 black(0.0F);
+    const double dark = sum({black, black, black, 0.0F});
+    EXPECT_EQ(dark, 0.0);
+    EXPECT_GT(sum({black, black, glm::vec3(0.0F, 1.0F, 0.0F), 0.0F}), 0.0) << "background";
+    const double ambient = sum({glm::vec3(0.2F), glm::vec3(0.2F), black, 0.0F});
+    EXPECT_GT(ambient, 0.0);
+    const double dim = sum({glm::vec3(0.2F), glm::vec3(0.2F), black, 2.0F});
+    EXPECT_GT(dim, ambient);
+    EXPECT_GT(sum({glm::vec3(0.2F), glm::vec3(0.2F), black, 20.0F}), dim);
 }
 
 TEST_P(Renderer, every_overlay_shows) {

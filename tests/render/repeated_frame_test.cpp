@@ -34,9 +34,16 @@ protected:
         auto frame = system_->begin_frame();
         EXPECT_TRUE(adapter_.submit(setting_.scene, frame));
         const shadows::DrawList& list = std::move(frame).finish(setting_.view);
-        EXPECT_TRUE(repeating_->render({setting_.scene, setting_.view, list}));
+        EXPECT_TRUE(repeating_->render({.scene = setting_.scene,
+                                        .view = setting_.view,
+                                        .shadows = list,
+                                        .environment = environment_}));
         const auto reads = [](std::size_t) { return Status(); };
-        EXPECT_TRUE(recording_->render({setting_.scene, setting_.view, list, reads}));
+        EXPECT_TRUE(recording_->render({.scene = setting_.scene,
+                                        .view = setting_.view,
+                                        .shadows = list,
+                                        .after_light = reads,
+                                        .environment = environment_}));
         EXPECT_TRUE(recording_->times().recorded);
         EXPECT_EQ(must(device().read_texture(repeating_->picture())),
                   must(device().read_texture(recording_->picture())));
@@ -56,6 +63,7 @@ protected:
     }
 
     Setting setting_;
+    render::Environment environment_;
     std::optional<shadows::ShadowSystem> system_;
     scene::ShadowAdapter adapter_;
     std::optional<render::Renderer> repeating_, recording_;
@@ -80,7 +88,7 @@ TEST_P(RepeatedFrame, looks_as_if_it_were_recorded_whatever_changes) {
         const auto some = [&](const auto& entities) {
             return entities[random.below(static_cast<std::uint32_t>(entities.size()))];
         };
-        switch (random.below(6)) {
+        switch (random.below(7)) {
             case 0: setting_.view.view_from_world[3] += glm::dvec4(random.in_cube(0.2), 0.0); break;
             case 1: pose(some(casters))[3] += glm::dvec4(random.in_cube(0.5), 0.0); break;
             case 2: {
@@ -102,6 +110,11 @@ TEST_P(RepeatedFrame, looks_as_if_it_were_recorded_whatever_changes) {
                 for (const scene::Entity light : all<scene::PointLight>()) {
                     setting_.scene.registry.get<scene::PointLight>(light).intensity *= 0.8F;
                 }
+                break;
+            case 5:
+                environment_.background.r += 0.1F;
+                environment_.sky.g += 0.1F;
+                environment_.exposure = environment_.exposure.value_or(0.2F) * 1.2F;
                 break;
             default: break;
         }

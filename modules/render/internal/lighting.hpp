@@ -12,6 +12,7 @@
 
 #include <glm/glm.hpp>
 
+#include <gnomon/render/renderer.hpp>
 #include <gnomon/scene/scene.hpp>
 #include <gnomon/shadows/shadow_system.hpp>
 #include <gnomon/shadows/view.hpp>
@@ -46,16 +47,18 @@ struct FrameLight {
 };
 
 /// One per entry of `lights` and then of `unshadowed`, in their order. glTF's units go in (lux,
-/// candela); what comes out is scaled so that the strongest light on the scene exposes a white
-/// surface well.
+/// candela); what comes out is scaled by `exposure`, or without it so that the strongest light on
+/// the scene exposes a white surface well.
 [[nodiscard]] std::vector<FrameLight> frame_lights(const scene::Scene& scene,
                                                    const scene::Bounds& bounds,
                                                    std::span<const shadows::LightDraws> lights,
                                                    std::span<const scene::Entity> unshadowed,
-                                                   const shadows::View& view);
+                                                   const shadows::View& view,
+                                                   std::optional<float> exposure);
 
 /// Of `lights`, at most lights_a_round. `first`: what comes without a light is in it.
 [[nodiscard]] RoundUniforms round_uniforms(const shadows::View& view,
-                                           std::span<const FrameLight> lights, bool first);
+                                           std::span<const FrameLight> lights,
+                                           const Environment& environment, bool first);
 
 }  // namespace gnomon::render::internal

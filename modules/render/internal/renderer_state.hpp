@@ -50,6 +50,7 @@ struct FrameContents {
     std::uint64_t shadows = 0;  ///< ShadowPass::revision()
     gpu::BindGroupId draws, rounds;
     bool unclipped = false;
+    glm::vec3 background{0.0F};
     bool operator==(const FrameContents&) const = default;
 };
 
@@ -79,6 +80,7 @@ struct Renderer::State {
     std::vector<internal::Instance> instances;
     std::vector<internal::FrameLight> lights;  // those that are drawn
     bool unclipped = false;                    // this frame's geometry
+    glm::vec3 background{0.0F};                // and what is behind it
     std::optional<scene::Bounds> bounds;       // of the scene when it was first drawn
     std::size_t light_count = 0;               // of the last frame's draw list
     FrameTimes times;
