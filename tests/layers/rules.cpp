@@ -158,6 +158,20 @@ void check_program_include(const SourceFile& file, const Include& include,
     }
 }
 
+/// The game is what an embedder would write: beside public headers it includes its own, and of the
+/// command-line tool the two that say which devices there are and how files are written.
+void check_game_include(const SourceFile& file, const Include& include,
+                        const std::set<std::string_view>& paths, std::vector<Violation>& found) {
+    constexpr std::string_view folder = "apps/game/";
+    constexpr std::array<std::string_view, 2> shared{"devices.hpp", "files.hpp"};
+    if (!file.path.starts_with(folder) || !include.quoted) return;
+    if (looks_inside(include.name)) return;  // complained of above
+    const std::string own = std::string(folder) + std::string(include.name);
+    if (paths.contains(own) || std::ranges::find(shared, include.name) != shared.end()) return;
+    found.push_back(place(file, include) +
+                    " in quotes; the game has its own headers and gnomon's public ones.");
+}
+
 std::size_t count_lines(std::string_view text) {
     const auto breaks = static_cast<std::size_t>(std::ranges::count(text, '\n'));
     return breaks + (text.empty() || text.back() == '\n' ? 0 : 1);
@@ -195,6 +209,8 @@ std::vector<Include> includes_of(std::string_view text) {
 
 std::vector<Violation> check_includes(std::span<const SourceFile> tree) {
     std::vector<Violation> found;
+    std::set<std::string_view> paths;
+    for (const SourceFile& file : tree) paths.insert(file.path);
     for (const SourceFile& file : tree) {
         if (!is_code(file.path) || file.path.starts_with(tests_folder)) continue;
         const Layer* layer = layer_of(file.path);
@@ -206,6 +222,7 @@ std::vector<Violation> check_includes(std::span<const SourceFile> tree) {
                 break;
             } else {
                 check_program_include(file, include, found);
+                check_game_include(file, include, paths, found);
             }
         }
     }

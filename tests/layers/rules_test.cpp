@@ -141,6 +141,19 @@ INSTANTIATE_TEST_SUITE_P(
                    "nothing private"}),
     [](const auto& row) { return row.param.name; });
 
+TEST(GameIncludes, AreItsOwnAndTwoOfTheTools) {
+    std::vector<SourceFile> tree{{"apps/game/world.hpp", ""},
+                                 {"apps/gnomon/render_setup.hpp", ""},
+                                 {"apps/game/main.cpp",
+                                  "#include \"world.hpp\"\n#include \"devices.hpp\"\n"
+                                  "#include \"files.hpp\"\n"}};
+    EXPECT_THAT(check_includes(tree), IsEmpty());
+    tree.push_back({"apps/game/other.cpp", "#include \"render_setup.hpp\"\n"});
+    EXPECT_THAT(check_includes(tree),
+                ElementsAre(HasSubstr("apps/game/other.cpp:1 includes render_setup.hpp in quotes; "
+                                      "the game has its own headers")));
+}
+
 TEST(BackendChoice, OneFileOfTheAppsMayNameBoth) {
     const std::string both = "#include <gnomon/gl/backend.hpp>\n#include <gnomon/vk/backend.hpp>\n";
     std::vector<SourceFile> tree{{"apps/gnomon/device.cpp", both},
