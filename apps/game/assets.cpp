@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "assets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gnomon::game {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> playing_order{"courtyard", "barracks", "dockyard"};
+
+std::size_t place_in_order(const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(playing_order, name) - playing_order.begin());
+}
+
+}  // namespace
+
+std::filesystem::path assets_folder() {
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    return program.parent_path().parent_path() / "share" / "gnomon" / "game";
+}
+
+std::vector<std::string> level_names(const std::filesystem::path& assets) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(assets / "levels", error)) {
+        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    }
+    // What the game came with first, then others by name.
+    std::ranges::sort(names, [](const std::string& a, const std::string& b) {
+        return std::pair(place_in_order(a), a) < std::pair(place_in_order(b), b);
+    });
+    return names;
+}
+
+Result<Level> load_named_level(const std::filesystem::path& assets, const std::string& name) {
+    const std::vector<std::string> names = level_names(assets);
+    if (std::ranges::find(names, name) == names.end()) {
+        return fail(
+            ErrorCode::InvalidInput,
+            fmt::format("There is no level \"{}\" in {}; there are {}.", name,
+                        (assets / "levels").string(),
+                        names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+    }
+    return load_level(assets / "levels" / (name + ".json"));
+}
+
+}  // namespace gnomon::game

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// Where levels and recordings lie: beside the program, in ../share/gnomon/game, both where it was
+// built and where it was installed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gnomon/core/result.hpp>
+
+#include "level.hpp"
+
+namespace gnomon::game {
+
+[[nodiscard]] std::filesystem::path assets_folder();
+
+/// Names of all levels in a folder of assets, in the order in which they are played.
+[[nodiscard]] std::vector<std::string> level_names(const std::filesystem::path& assets);
+
+/// A level by its name. Fails as load_level(), and with ErrorCode::InvalidInput where there is none
+/// of that name.
+[[nodiscard]] Result<Level> load_named_level(const std::filesystem::path& assets,
+                                             const std::string& name);
+
+}  // namespace gnomon::game

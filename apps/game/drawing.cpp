@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gnomon/render/camera.hpp>
+
+#include "movers.hpp"
+
+namespace gnomon::game {
+
+shadows::View follow(const Level& level, const Player& player, double aspect) {
+    const CameraRig& rig = level.camera;
+    // Of the level, what the picture shows about the middle of its sides.
+    const glm::dvec2 margin(rig.distance_m * std::tan(rig.fovy_rad * 0.5) *
+                            glm::dvec2(aspect, 1.0));
+    const glm::dvec2 room = glm::max(level.size_m * 0.5 + 2.0 - margin, glm::dvec2(0.0));
+    const glm::dvec2 ahead = plan_direction(rig.yaw_rad) * -1.2;
+    const glm::dvec2 at = glm::clamp(player.at + ahead, -room, room);
+    const glm::dvec3 target(at.x, 0.9, at.y);
+    const glm::dvec2 back = plan_direction(rig.yaw_rad);
+    const double c = std::cos(rig.pitch_rad);
+    const glm::dvec3 eye =
+        target + rig.distance_m * glm::dvec3(back.x * c, std::sin(rig.pitch_rad), back.y * c);
+    return {.view_from_world = shadows::look_at(eye, target, {0.0, 1.0, 0.0}),
+            .clip_from_view = shadows::infinite_perspective(rig.fovy_rad, aspect, 0.1)};
+}
+
+Drawing::Drawing(gpu::Device& device, shadows::ShadowSystem system, render::Renderer renderer)
+    : device_(&device), system_(std::move(system)), renderer_(std::move(renderer)) {}
+
+Result<Drawing> Drawing::create(gpu::Device& device, Stage& stage, const DrawingOptions& options) {
+    auto system = shadows::ShadowSystem::create({.receivers = shadows::Receivers::Submitted});
+    if (!system) return forward_error(system);
+    auto renderer = render::Renderer::create(
+        device,
+        {.width = options.width, .height = options.height, .sample_count = options.samples});
+    if (!renderer) return forward_error(renderer);
+    stage.dress();
+    if (const Status uploaded = renderer->upload(stage.scene()); !uploaded) {
+        return forward_error(uploaded);
+    }
+    return Drawing(device, std::move(*system), std::move(*renderer));
+}
+
+Status Drawing::draw(Stage& stage, const Level& level, const shadows::View& view,
+                     const std::function<Status(std::size_t)>& after_light) {
+    auto frame = system_.begin_frame();
+    if (const Status done = stage.adapter().submit(stage.scene(), frame); !done) return done;
+    const shadows::DrawList& list = std::move(frame).finish(view);
+    stats_ = list.stats;
+    const Mood& mood = level.mood;
+    return renderer_.render({.scene = stage.scene(),
+                             .view = view,
+                             .shadows = list,
+                             .after_light = after_light,
+                             .environment = {.sky = mood.sky,
+                                             .ground = mood.ground,
+                                             .background = mood.background,
+                                             .exposure = mood.exposure}});
+}
+
+Result<std::vector<std::byte>> Drawing::read_picture() {
+    return device_->read_texture(renderer_.picture());
+}
+
+}  // namespace gnomon::game

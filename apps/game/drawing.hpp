@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// Drawing: a stage through a camera that follows the player, on any of gnomon's devices. It looks
+// at the world and changes nothing there.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <gnomon/core/result.hpp>
+#include <gnomon/gpu/device.hpp>
+#include <gnomon/render/renderer.hpp>
+#include <gnomon/shadows/shadow_system.hpp>
+#include <gnomon/shadows/view.hpp>
+
+#include "level.hpp"
+#include "player.hpp"
+#include "stage.hpp"
+
+namespace gnomon::game {
+
+/// Behind and above the player, with a little more of what is ahead in the picture. Near the border
+/// of a level it stays over the level.
+[[nodiscard]] shadows::View follow(const Level& level, const Player& player, double aspect);
+
+struct DrawingOptions {
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::uint32_t samples = 4;  ///< 1 or 4
+};
+
+class Drawing {
+public:
+    /// The device must outlive it. Fails as Renderer::create() and Renderer::upload().
+    [[nodiscard]] static Result<Drawing> create(gpu::Device& device, Stage& stage,
+                                                const DrawingOptions& options);
+
+    /// One frame, submitted. `after_light` as FrameInput has it.
+    [[nodiscard]] Status draw(Stage& stage, const Level& level, const shadows::View& view,
+                              const std::function<Status(std::size_t)>& after_light = {});
+
+    /// Four bytes a pixel, row 0 on top. Waits for the device.
+    [[nodiscard]] Result<std::vector<std::byte>> read_picture();
+    [[nodiscard]] const render::Renderer& renderer() const { return renderer_; }
+    /// Of the last frame.
+    [[nodiscard]] const shadows::FrameStats& shadow_stats() const { return stats_; }
+
+private:
+    Drawing(gpu::Device& device, shadows::ShadowSystem system, render::Renderer renderer);
+
+    gpu::Device* device_;
+    shadows::ShadowSystem system_;
+    render::Renderer renderer_;
+    shadows::FrameStats stats_;
+};
+
+}  // namespace gnomon::game

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "headless.hpp"
+
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "devices.hpp"
+#include "drawing.hpp"
+#include "files.hpp"
+
+namespace gnomon::game {
+
+namespace {
+
+class Camera {
+public:
+    explicit Camera(const CaptureOptions& options) : options_(options) {}
+
+    Status open(World& world) {
+        std::error_code error;
+        std::filesystem::create_directories(options_.folder, error);
+        if (error) {
+            return fail(ErrorCode::Io, fmt::format("{}: the folder cannot be made: {}.",
+                                                   options_.folder.string(), error.message()));
+        }
+        auto device = cli::create_device({.backend = options_.backend});
+        if (!device) return forward_error(device);
+        device_.emplace(std::move(*device));
+        const std::uint32_t limit = device_->caps().limits.max_texture_dimension_2d;
+        if (options_.width > limit || options_.height > limit) {
+            return fail(
+                ErrorCode::InvalidInput,
+                fmt::format("--size: {}x{} is larger than {} takes; its limit is {}.",
+                            options_.width, options_.height, device_->caps().adapter, limit));
+        }
+        auto drawing = Drawing::create(
+            *device_, world.stage(),
+            {.width = options_.width, .height = options_.height, .samples = options_.samples});
+        if (!drawing) return forward_error(drawing);
+        drawing_.emplace(std::move(*drawing));
+        return {};
+    }
+
+    Status take(World& world, std::size_t place) {
+        const double aspect = static_cast<double>(options_.width) / options_.height;
+        const shadows::View view = follow(world.level(), world.player(), aspect);
+        if (const Status drawn = drawing_->draw(world.stage(), world.level(), view); !drawn) {
+            return drawn;
+        }
+        const auto rgba = drawing_->read_picture();
+        if (!rgba) return forward_error(rgba);
+        cli::OutputFiles files;
+        const Status added = files.add_png(options_.folder / fmt::format("tick_{:06}.png", place),
+                                           options_.width, options_.height, *rgba);
+        return added ? files.commit() : added;
+    }
+
+private:
+    const CaptureOptions& options_;
+    std::optional<gpu::Device> device_;
+    std::optional<Drawing> drawing_;
+};
+
+}  // namespace
+
+Result<Ended> play(const Level& level, const Recording& recording, const CaptureOptions& capture) {
+    auto world = World::create(level);
+    if (!world) return forward_error(world);
+    Camera camera(capture);
+    const bool captures = !capture.folder.empty();
+    Ended ended;
+    const auto take = [&](std::size_t place) {
+        ++ended.pictures;
+        return camera.take(*world, place);
+    };
+    if (captures) {
+        if (const Status opened = camera.open(*world); !opened) return forward_error(opened);
+        if (const Status taken = take(0); !taken) return forward_error(taken);
+    }
+    for (std::size_t i = 0; i < recording.inputs.size(); ++i) {
+        if (const Status done = world->tick(recording.inputs[i]); !done) return forward_error(done);
+        const bool is_due = (i + 1) % capture.every == 0 || i + 1 == recording.inputs.size();
+        if (!captures || !is_due) continue;
+        if (const Status taken = take(i + 1); !taken) return forward_error(taken);
+    }
+    ended.outcome = world->outcome();
+    ended.ticks = world->now();
+    ended.hash = world->hash();
+    return ended;
+}
+
+}  // namespace gnomon::game

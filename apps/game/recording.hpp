@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// Recordings: the inputs of every tick of a game, as text that can be read and compared line by
+// line (docs/game.md, "Recordings"):
+//
+//     gnomon-replay 1
+//     level courtyard
+//     ticks 312
+//     120 0 -127 -
+//     192 127 0 s
+//     end
+//
+// A line of input is how many ticks it lasts, the axes east and south, and letters: s sneak, r run,
+// n restart (anew), p pause, or - for none.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gnomon/core/result.hpp>
+
+#include "player.hpp"
+
+namespace gnomon::game {
+
+struct Recording {
+    std::string level;  ///< its name among the levels: letters, digits, "-" and "_"
+    std::vector<Input> inputs;
+
+    bool operator==(const Recording&) const = default;
+};
+
+/// At most, of a recording: an hour.
+inline constexpr std::size_t most_ticks = 216000;
+
+[[nodiscard]] std::string to_text(const Recording& recording);
+
+/// The inverse of to_text(). Fails with ErrorCode::InvalidInput, one sentence that names `file`,
+/// line, value and limit.
+[[nodiscard]] Result<Recording> read_recording(std::string_view text, const std::string& file);
+
+/// Fails as read_recording(), and with ErrorCode::Io.
+[[nodiscard]] Result<Recording> load_recording(const std::filesystem::path& path);
+
+}  // namespace gnomon::game

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "command_line.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace gnomon::game {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+struct Said {
+    int code = 0;
+    std::string out;
+    std::string error;
+};
+
+Said say(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "gnomon-game");
+    if (arguments.size() > 1) {
+        arguments.insert(arguments.end(), {"--assets", GNOMON_GAME_ASSETS});
+    }
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    Said said;
+    said.code = run(static_cast<int>(argv.size()), argv.data());
+    std::fflush(stdout);
+    said.out = testing::internal::GetCapturedStdout();
+    said.error = testing::internal::GetCapturedStderr();
+    return said;
+}
+
+std::filesystem::path output(const char* name) {
+    const std::filesystem::path folder = std::filesystem::path(GNOMON_TEST_OUTPUT) / "game";
+    std::filesystem::create_directories(folder);
+    return folder / name;
+}
+
+TEST(CommandLine, lists_the_levels) {
+    const Said said = say({"--list-levels"});
+    EXPECT_EQ(said.code, 0);
+    EXPECT_THAT(said.out, StartsWith("courtyard: The Courtyard\n"));
+}
+
+TEST(CommandLine, a_replay_says_its_hash_last) {
+    const std::filesystem::path file = output("wait.replay");
+    std::ofstream(file) << "gnomon-replay 1\nlevel courtyard\nticks 30\n30 0 0 s\nend\n";
+    const Said said = say({"--headless", "--replay", file.string()});
+    EXPECT_EQ(said.code, 0) << said.error;
+    EXPECT_THAT(said.out, MatchesRegex("The Courtyard: not over after 0.50 s\nhash: "
+                                       "[0-9a-f]{16}\n"));
+    EXPECT_EQ(say({"--headless", "--replay", file.string()}).out, said.out);
+}
+
+TEST(CommandLine, captures_pictures) {
+    const std::filesystem::path file = output("short.replay");
+    std::ofstream(file) << "gnomon-replay 1\nlevel courtyard\nticks 5\n5 0 0 -\nend\n";
+    const std::filesystem::path folder = output("pictures");
+    std::filesystem::remove_all(folder);
+    const Said said = say({"--headless", "--replay", file.string(), "--capture", folder.string(),
+                           "--every", "2", "--size", "160x90", "--samples", "1"});
+    if (said.error.find("No backend") != std::string::npos) GTEST_SKIP() << said.error;
+    EXPECT_EQ(said.code, 0) << said.error;
+    for (const char* name :
+         {"tick_000000.png", "tick_000002.png", "tick_000004.png", "tick_000005.png"}) {
+        EXPECT_GT(std::filesystem::file_size(folder / name), 1000U) << name;
+    }
+    EXPECT_THAT(said.out, HasSubstr("4 pictures in "));
+}
+
+TEST(CommandLine, refuses_in_one_sentence) {
+    const struct {
+        std::vector<std::string> arguments;
+        int code;
+        const char* sentence;
+    } rows[] = {
+        {{"--headless"},
+         2,
+         "gnomon-game: --headless needs --replay FILE or --autopilot: nobody can press "
+         "anything.\n"},
+        {{"--headless", "--autopilot", "--replay", "x"},
+         2,
+         "gnomon-game: --replay and --autopilot both say what is pressed; give one of them.\n"},
+        {{"--headless", "--replay", "no/such.replay"},
+         2,
+         "gnomon-game: no/such.replay: the recording cannot be read.\n"},
+        {{"--headless", "--autopilot", "--size", "12by9"},
+         2,
+         "gnomon-game: --size is \"12by9\", but must be two numbers from 1 to 16384 with an x "
+         "between, such as 1280x720.\n"},
+        {{"--replay", "x", "--level", "courtyard"},
+         2,
+         "gnomon-game: --level goes without --replay: a recording names its own level.\n"}};
+    for (const auto& row : rows) {
+        const Said said = say(row.arguments);
+        EXPECT_EQ(said.code, row.code);
+        EXPECT_EQ(said.error, row.sentence);
+        EXPECT_EQ(said.out, "");
+    }
+    EXPECT_THAT(say({"--headless", "--autopilot", "--level", "moon"}).error,
+                EndsWith("there are courtyard, barracks, dockyard.\n"));
+}
+
+}  // namespace
+}  // namespace gnomon::game
