@@ -13,7 +13,7 @@ namespace gnomon::game {
 
 namespace {
 
-constexpr std::uintmax_t most_bytes = 8U << 20U;
+constexpr std::uintmax_t most_recording_bytes = 8U << 20U;
 constexpr std::string_view magic = "gnomon-replay";
 
 std::string letters_of(const Input& input) {
@@ -186,10 +186,10 @@ Result<Recording> load_recording(const std::filesystem::path& path) {
     if (error || !stream) {
         return fail(ErrorCode::Io, fmt::format("{}: the recording cannot be read.", path.string()));
     }
-    if (size > most_bytes) {
+    if (size > most_recording_bytes) {
         return fail(ErrorCode::Io,
                     fmt::format("{}: the recording has {} bytes, but must have {} at most.",
-                                path.string(), size, most_bytes));
+                                path.string(), size, most_recording_bytes));
     }
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     return read_recording(text, path.string());

@@ -20,6 +20,7 @@
 #include "level.hpp"
 #include "lights.hpp"
 #include "player.hpp"
+#include "textures.hpp"
 #include "timing.hpp"
 
 namespace gnomon::game {
@@ -76,6 +77,7 @@ private:
     std::vector<std::uint64_t> player_keys_;
 
     std::uint32_t ground_material_ = 0;
+    std::vector<std::pair<std::uint32_t, Grain>> grains_;  ///< which material has which
     Skeleton skeleton_;
     Figure player_;
     std::vector<Figure> guards_;

@@ -2,6 +2,7 @@
 //
 // From a level to a stage: meshes, materials, lights, obstacles.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +12,6 @@
 
 #include <gnomon/scene/primitives.hpp>
 
-#include "ground_texture.hpp"
 #include "movers.hpp"
 #include "props.hpp"
 #include "stage.hpp"
@@ -48,7 +48,7 @@ public:
         stage_.scene_.materials.emplace_back().name = "default";
         glow_ = paint({0.1F, 0.1F, 0.1F}, 0.9F, {3.2F, 2.6F, 1.7F});
         iron_ = paint({0.10F, 0.105F, 0.115F}, 0.55F);
-        oak_ = paint({0.40F, 0.27F, 0.16F}, 0.8F);
+        oak_ = painted({0.46F, 0.31F, 0.18F}, Grain::Planks);
 
         add_ground();
         add_architecture();
@@ -106,12 +106,18 @@ private:
             Part::Glow);
     }
 
-    std::uint32_t painted(const glm::vec3& color) {
-        for (const auto& [known, material] : palette_) {
-            if (known == color) return material;
+    std::uint32_t painted(const glm::vec3& color, Grain grain) {
+        for (const Paint& known : palette_) {
+            if (known.color == color && known.grain == grain) return known.material;
         }
-        palette_.emplace_back(color, paint(color, 0.88F));
-        return palette_.back().second;
+        palette_.push_back({color, grain, paint(color, 0.88F)});
+        stage_.grains_.emplace_back(palette_.back().material, grain);
+        return palette_.back().material;
+    }
+
+    static std::shared_ptr<const scene::Mesh> tiled(scene::Mesh mesh) {
+        lay_tiles(mesh);
+        return share(std::move(mesh));
     }
 
     void add_architecture() {
@@ -119,13 +125,15 @@ private:
         for (const Block& block : level().blocks) {
             const double sunk = block.base_m > 0.0 ? 0.0 : buried_m;
             const glm::dvec3 size(block.size_m.x, block.size_m.y + sunk, block.size_m.z);
-            const std::uint32_t material = painted(block.color);
+            const Grain plain = block.size_m.y > 2.0 ? Grain::Ribs : Grain::Planks;
+            const std::uint32_t material =
+                painted(block.color, block.is_wall ? Grain::Bricks : plain);
             const scene::LocalTransform local{
                 .translation = {block.at.x, block.base_m + size.y * 0.5 - sunk, block.at.y},
                 .rotation = in_plan(block.turn_rad)};
             const bool is_crate = !block.is_wall && block.size_m.y <= 3.0;
             add(fmt::format("block {}", ++number),
-                share(is_crate ? make_crate(size, material)
+                tiled(is_crate ? make_crate(size, material)
                                : scene::make_box(glm::vec3(size), material)),
                 local);
             if (block.base_m < headroom_m) {
@@ -207,14 +215,14 @@ private:
             const scene::Entity hinge = stage_.scene_.create_node(
                 "door", {.translation = {door.hinge.x, 0.0, door.hinge.y}});
             const glm::dvec3 size(0.09, door.height_m - 0.04, door.width_m - 0.08);
-            add("leaf", share(make_crate(size, oak_)),
+            add("leaf", tiled(make_crate(size, oak_)),
                 {.translation = {0.0, 0.04 + size.y * 0.5, door.width_m * 0.5}}, hinge);
             stage_.doors_.push_back(hinge);
         }
     }
 
     void add_crane(const Crane& crane) {
-        const std::uint32_t yellow = painted({0.42F, 0.25F, 0.05F});
+        const std::uint32_t yellow = paint({0.46F, 0.27F, 0.05F}, 0.7F);
         const scene::LocalTransform foot{.translation = {crane.at.x, 0.0, crane.at.y}};
         add("crane mast", share(make_lattice(crane.height_m, 1.0, yellow)), foot);
         block_way(crane.at, glm::dvec2(0.62));
@@ -235,7 +243,7 @@ private:
             stage_.scene_.create_node("hook", {.translation = {0.0, 0.0, crane.arm_m * 0.94}}, arm);
         add("rope", share(scene::make_cylinder(0.035F, static_cast<float>(rope_m), 8, iron_)),
             {.translation = {0.0, -rope_m * 0.5, 0.0}}, hook);
-        add("load", share(make_crate(crane.load_m, oak_)),
+        add("load", tiled(make_crate(crane.load_m, oak_)),
             {.translation = {0.0, -rope_m - crane.load_m.y * 0.5, 0.0}}, hook);
         stage_.crane_arms_.push_back(arm);
         stage_.crane_loads_.push_back(hook);
@@ -244,13 +252,13 @@ private:
     void add_wheel(const Wheel& wheel) {
         const double axle_m = wheel.radius_m * 1.06 + 0.12;
         const scene::Entity hub =
-            add("wheel", share(make_spoked_wheel(wheel.radius_m, wheel.spokes, oak_)),
+            add("wheel", tiled(make_spoked_wheel(wheel.radius_m, wheel.spokes, oak_)),
                 {.translation = {wheel.at.x, axle_m, wheel.at.y}});
         stage_.wheels_.push_back(hub);
         const glm::dvec2 axis = plan_direction(wheel.turn_rad);
         const glm::dvec2 across(axis.y, -axis.x);
         const auto post =
-            share(scene::make_box(glm::vec3(0.16F, static_cast<float>(axle_m + 0.3), 0.16F), oak_));
+            tiled(scene::make_box(glm::vec3(0.16F, static_cast<float>(axle_m + 0.3), 0.16F), oak_));
         for (const double side : {-0.5, 0.5}) {
             for (const double lean : {-0.22, 0.22}) {
                 const glm::dvec2 at = wheel.at + axis * side + across * (lean * axle_m * 0.5);
@@ -307,7 +315,7 @@ private:
 
     Status add_figures() {
         scene::Scene& scene = stage_.scene_;
-        Dress player{.cloth = paint({0.16F, 0.22F, 0.36F}, 0.8F),
+        Dress player{.cloth = paint({0.30F, 0.37F, 0.50F}, 0.8F),
                      .trousers = paint({0.10F, 0.10F, 0.12F}, 0.9F),
                      .skin = paint({0.55F, 0.36F, 0.26F}, 0.6F),
                      .accent = paint({0.62F, 0.07F, 0.045F}, 0.8F, {0.03F, 0.002F, 0.001F}),
@@ -339,7 +347,7 @@ private:
             const scene::Entity shed = scene.create_node(
                 "lamp shed", {.translation = hand + glm::dvec3(0.0, 0.06, 0.02)}, figure.root);
             registry().emplace<scene::PointLight>(shed, g.color,
-                                                  static_cast<float>(g.candela * 0.03), 2.5);
+                                                  static_cast<float>(g.candela * 0.012), 2.5);
             add("lantern", lantern, {.translation = hand}, figure.root, Part::Glow);
             add("lid", lid, {.translation = hand + glm::dvec3(0.0, 0.1, 0.0)}, figure.root,
                 Part::Glow);
@@ -353,12 +361,24 @@ private:
     std::uint32_t glow_ = 0;
     std::uint32_t iron_ = 0;
     std::uint32_t oak_ = 0;
-    std::vector<std::pair<glm::vec3, std::uint32_t>> palette_;
+    struct Paint {
+        glm::vec3 color;
+        Grain grain;
+        std::uint32_t material;
+    };
+    std::vector<Paint> palette_;
 };
 
 void Stage::dress() {
     scene::Material& ground = scene_.materials[ground_material_];
-    if (!ground.base_color_image) ground.base_color_image = make_ground_image(level_, border_m);
+    if (ground.base_color_image) return;
+    ground.base_color_image = make_ground_image(level_, border_m);
+    std::array<std::shared_ptr<const scene::Image>, 3> images;
+    for (const auto& [material, grain] : grains_) {
+        auto& image = images[static_cast<std::size_t>(grain)];
+        if (!image) image = make_grain_image(grain);
+        scene_.materials[material].base_color_image = image;
+    }
 }
 
 Result<Stage> Stage::create(const Level& level) { return StageBuilder(level).build(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ground_texture.hpp"
+#include "textures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +58,46 @@ double flagstones(double x_m, double z_m) {
     return stone * grain * (0.45 + 0.55 * joint);
 }
 
+/// How bright a brick wall is at a place of its tile, 0 to 1.
+double bricks(double u_m, double v_m) {
+    constexpr int columns = 4;
+    constexpr int rows = 12;
+    constexpr double brick_m = grain_tile_m / columns;
+    constexpr double course_m = grain_tile_m / rows;
+    const int row = static_cast<int>(v_m / course_m) % rows;
+    const double shifted = u_m + (row % 2 == 0 ? 0.0 : brick_m * 0.5);
+    const int column = static_cast<int>(shifted / brick_m) % columns;
+    const double in_u = std::fmod(shifted, brick_m);
+    const double in_v = v_m - row * course_m;
+    const double to_joint =
+        std::min(std::min(in_u, brick_m - in_u), std::min(in_v, course_m - in_v));
+    const double joint = std::clamp((to_joint - 0.004) / 0.014, 0.0, 1.0);
+    return (0.74 + 0.26 * noise_at(column, row)) * (0.62 + 0.38 * joint);
+}
+
+/// Boards that lie on each other.
+double planks(double u_m, double v_m) {
+    constexpr int rows = 8;
+    constexpr double board_m = grain_tile_m / rows;
+    const int row = static_cast<int>(v_m / board_m) % rows;
+    const double in_v = v_m - row * board_m;
+    const double joint = std::clamp((std::min(in_v, board_m - in_v) - 0.003) / 0.010, 0.0, 1.0);
+    // Fibres run along the boards; their period is the tile's.
+    const double fibre = std::sin((u_m / grain_tile_m + 0.13 * noise_at(row, 3)) * 6.2831853 * 2.0 +
+                                  in_v * 90.0 + 5.0 * noise_at(row, 9));
+    return (0.76 + 0.18 * noise_at(row, 5) + 0.05 * fibre) * (0.45 + 0.55 * joint);
+}
+
+/// Folded sheet metal, upright.
+double ribs(double u_m, double v_m) {
+    constexpr double fold_m = grain_tile_m / 10.0;
+    const double in_fold = std::fmod(u_m, fold_m) / fold_m;
+    const double slope = std::clamp(std::abs(in_fold - 0.5) * 6.0 - 1.0, 0.0, 1.0);
+    const double rust =
+        noise_at(static_cast<std::int32_t>(u_m * 16.0), static_cast<std::int32_t>(v_m * 16.0));
+    return 0.68 + 0.26 * slope + 0.06 * rust;
+}
+
 }  // namespace
 
 std::shared_ptr<const scene::Image> make_ground_image(const Level& level, double border_m) {
@@ -92,6 +132,48 @@ std::shared_ptr<const scene::Image> make_ground_image(const Level& level, double
         }
     }
     return image;
+}
+
+std::shared_ptr<const scene::Image> make_grain_image(Grain grain) {
+    constexpr std::uint32_t side = 512;
+    auto image = std::make_shared<scene::Image>();
+    image->name = "grain";
+    image->width = side;
+    image->height = side;
+    image->rgba.reserve(std::size_t{4} * side * side);
+    for (std::uint32_t row = 0; row < side; ++row) {
+        for (std::uint32_t column = 0; column < side; ++column) {
+            const double u_m = (column + 0.5) / side * grain_tile_m;
+            const double v_m = (row + 0.5) / side * grain_tile_m;
+            double bright = 1.0;
+            switch (grain) {
+                case Grain::Bricks: bright = bricks(u_m, v_m); break;
+                case Grain::Planks: bright = planks(u_m, v_m); break;
+                case Grain::Ribs: bright = ribs(u_m, v_m); break;
+            }
+            const double speck =
+                noise_at(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
+            const std::uint8_t level = srgb(bright * (0.95 + 0.05 * speck));
+            for (int channel = 0; channel < 3; ++channel) image->rgba.push_back(level);
+            image->rgba.push_back(255);
+        }
+    }
+    return image;
+}
+
+void lay_tiles(scene::Mesh& mesh) {
+    mesh.texcoords.clear();
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const glm::vec3 p = mesh.positions[v] / static_cast<float>(grain_tile_m);
+        const glm::vec3 n = glm::abs(mesh.normals[v]);
+        if (n.y > n.x && n.y > n.z) {
+            mesh.texcoords.emplace_back(p.x, p.z);
+        } else if (n.x > n.z) {
+            mesh.texcoords.emplace_back(p.z, -p.y);
+        } else {
+            mesh.texcoords.emplace_back(p.x, -p.y);
+        }
+    }
 }
 
 }  // namespace gnomon::game
