@@ -13,6 +13,7 @@
 
 #include "internal/detection_tables.hpp"
 #include "internal/face_plane.hpp"
+#include "internal/face_tree.hpp"
 #include "internal/finite.hpp"
 #include "internal/mesh_topology.hpp"
 #include "internal/rounded_product.hpp"
@@ -280,6 +281,7 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::build(const MeshView& view
 
     internal::order_by_planes(topology, mesh->planes_, closed, jobs);
     mesh->take(std::make_shared<const internal::MeshTopology>(std::move(topology)));
+    mesh->face_tree_shape_ = std::make_shared<internal::FaceTreeShape>();
     mesh->find_degenerate_faces();
     std::call_once(mesh->tables_once_, [&] {
         mesh->tables_ =
@@ -304,6 +306,7 @@ Result<std::shared_ptr<const ShadowMesh>> ShadowMesh::deformed(
     std::shared_ptr<ShadowMesh> mesh(new ShadowMesh);
     mesh->id_ = next_mesh_id();
     mesh->take(topology_);
+    mesh->face_tree_shape_ = face_tree_shape_;
     mesh->deformed_ = true;
     mesh->report_ = report_;
     mesh->positions_.reserve(positions_.size());

@@ -25,6 +25,7 @@ namespace gnomon::shadows {
 class ShadowMesh;
 namespace internal {
 class FaceTree;
+struct FaceTreeShape;
 const FaceTree& face_tree(const ShadowMesh& mesh);
 struct ConvexPart;
 const std::vector<ConvexPart>& convex_parts(const ShadowMesh& mesh);
@@ -213,6 +214,7 @@ private:
     // What shadow queries search in: made when first asked for, then as immutable as the rest.
     mutable std::once_flag face_tree_once_;
     mutable std::shared_ptr<const internal::FaceTree> face_tree_;
+    std::shared_ptr<internal::FaceTreeShape> face_tree_shape_;  // shared with deformed meshes
     // What other casters may be hidden behind from a light: likewise.
     mutable std::once_flag convex_parts_once_;
     mutable std::shared_ptr<const std::vector<internal::ConvexPart>> convex_parts_;

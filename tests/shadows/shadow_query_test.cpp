@@ -78,6 +78,45 @@ glm::dvec3 awkward_point(Random& random, const ShadowMesh& mesh, const LightLoca
     }
 }
 
+// Trees of deformed meshes have the shape of the first one that was asked about: whichever that is,
+// and however far the others are from it.
+TEST(ShadowQuery, CountsTheSameInWhateverPoseWasAskedAboutFirst) {
+    GNOMON_RANDOM(random);
+    int shadowed = 0;
+    for (int i = 0; i < 60; ++i) {
+        const test::Triangles at_rest = test::random_mesh(random);
+        const MeshPointer mesh = test::build(at_rest);
+        std::vector<MeshPointer> poses{mesh};
+        for (const float most : {0.01F, 0.3F, 20.0F}) {
+            std::vector<glm::vec3> positions = at_rest.positions;
+            // By place, so that what is welded stays together.
+            const glm::vec3 wave(glm::vec3(random.in_cube(3.0)));
+            for (glm::vec3& p : positions) {
+                p += most * glm::vec3(std::sin(wave.x * p.y), std::sin(wave.y * p.z),
+                                      std::sin(wave.z * p.x));
+            }
+            auto deformed = mesh->deformed(positions);
+            ASSERT_TRUE(deformed) << deformed.error().message;
+            poses.push_back(*deformed);
+        }
+        std::rotate(poses.begin(), poses.begin() + i % 4, poses.end());
+        for (const MeshPointer& pose : poses) {
+            const LightLocal light_local = test::random_light(random, *pose);
+            const Light light{.position_world = light_local.position};
+            const ShadowQueries queries = queries_of({{.key = 7, .mesh = pose}});
+            for (int j = 0; j < 5; ++j) {
+                const glm::dvec3 x = awkward_point(random, *pose, light_local);
+                const std::uint32_t expected =
+                    test::oracle_count(*pose, x, glm::dvec4(light_local.position));
+                ASSERT_EQ(queries.surfaces_between(light, x), expected)
+                    << "mesh " << i << ", " << j;
+                shadowed += expected > 0 ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(shadowed, 100);
+}
+
 TEST(ShadowQuery, CountsWhatExactArithmeticCounts) {
     GNOMON_RANDOM(random);
     int through = 0;

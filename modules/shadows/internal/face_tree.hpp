@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -14,11 +15,21 @@
 
 namespace gnomon::shadows::internal {
 
+/// The tree of whichever mesh of one topology was searched first: those of the others have its
+/// shape.
+struct FaceTreeShape {
+    std::once_flag made;
+    BoxTree<float> tree;
+};
+
 class FaceTree {
 public:
     using Triangle = std::array<glm::vec3, 3>;
 
-    explicit FaceTree(const ShadowMesh& mesh);
+    /// Has the shape's tree refitted, which it makes where there is none yet; but where vertices
+    /// have moved so far apart that searching would take more than twice as long, a tree of its
+    /// own.
+    FaceTree(const ShadowMesh& mesh, FaceTreeShape& shape);
 
     [[nodiscard]] const BoxTree<float>& tree() const { return tree_; }
     /// By places of the tree. Faces with two equal corners, which cast nothing, are left out.
@@ -29,8 +40,9 @@ private:
     std::vector<Triangle> triangles_;
 };
 
-/// The mesh's own tree, built by whichever thread asks first. Cost then: O(n log n), and about 60
-/// bytes a triangle for as long as the mesh lives.
+/// The mesh's own tree, built by whichever thread asks first. Cost then: O(n log n), linear for
+/// deformed meshes one of whose kind was asked about before; and about 60 bytes a triangle for as
+/// long as the mesh lives.
 const FaceTree& face_tree(const ShadowMesh& mesh);
 
 }  // namespace gnomon::shadows::internal
