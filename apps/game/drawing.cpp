@@ -10,8 +10,12 @@
 
 namespace gnomon::game {
 
-shadows::View follow(const Level& level, const Player& player, double aspect) {
-    const CameraRig& rig = level.camera;
+shadows::View follow(const Level& level, const Player& player, double aspect, const Look& look) {
+    CameraRig rig = level.camera;
+    rig.yaw_rad += look.yaw_rad;
+    rig.pitch_rad =
+        std::clamp(rig.pitch_rad + look.pitch_rad, glm::radians(20.0), glm::radians(85.0));
+    rig.distance_m /= look.nearer;
     // Of the level, what the picture shows about the middle of its sides.
     const glm::dvec2 margin(rig.distance_m * std::tan(rig.fovy_rad * 0.5) *
                             glm::dvec2(aspect, 1.0));

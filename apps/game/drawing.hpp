@@ -20,9 +20,17 @@
 
 namespace gnomon::game {
 
+/// How somebody has turned the camera, from what the level says.
+struct Look {
+    double yaw_rad = 0.0;
+    double pitch_rad = 0.0;  ///< from farther above; the sum is kept between 20 and 85 degrees
+    double nearer = 1.0;     ///< by this factor
+};
+
 /// Behind and above the player, with a little more of what is ahead in the picture. Near the border
 /// of a level it stays over the level.
-[[nodiscard]] shadows::View follow(const Level& level, const Player& player, double aspect);
+[[nodiscard]] shadows::View follow(const Level& level, const Player& player, double aspect,
+                                   const Look& look = {});
 
 struct DrawingOptions {
     std::uint32_t width = 1280;
