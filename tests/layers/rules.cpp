@@ -51,6 +51,11 @@ const std::vector<Layer>& layers() {
          {"truth", "render", "machine", "scene_shadows", "shadow_pass", "gpu"},
          {"glm/", "tl/", "fmt/", "nlohmann/", "embree3/", "meshoptimizer.h",
           "stb/stb_image_write.h", "gnomon_shaders/report.hpp"}},
+        {"input", {"modules/input/"}, {"core"}, {"glm/", "tl/", "fmt/"}},
+        {"ui",
+         {"modules/ui/"},
+         {"gpu", "input"},
+         {"glm/", "tl/", "fmt/", "imgui.h", "gnomon_shaders/ui.hpp"}},
         {"gl", {"backends/gl/"}, {"gpu"}, {"tl/", "fmt/", "GL/", "GLFW/", "KHR/", "dlfcn.h"}},
         {"vk", {"backends/vk/"}, {"gpu"}, {"tl/", "fmt/", "vulkan/", "volk.h", "dlfcn.h"}},
     };

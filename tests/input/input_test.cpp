@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <gnomon/input/input.hpp>
+
+#include <set>
+
+namespace gnomon::input {
+namespace {
+
+TEST(Input, a_press_is_an_event_once_and_a_level_until_released) {
+    Input input;
+    input.begin_frame();
+    input.press(Key::W);
+    EXPECT_TRUE(input.was_pressed(Key::W));
+    EXPECT_TRUE(input.is_down(Key::W));
+    input.begin_frame();
+    EXPECT_FALSE(input.was_pressed(Key::W));
+    EXPECT_TRUE(input.is_down(Key::W));
+    input.release(Key::W);
+    EXPECT_FALSE(input.is_down(Key::W));
+}
+
+TEST(Input, a_click_within_one_frame_is_seen) {
+    Input input;
+    input.begin_frame();
+    input.press(MouseButton::Left);
+    input.release(MouseButton::Left);
+    EXPECT_TRUE(input.was_pressed(MouseButton::Left));
+    EXPECT_TRUE(input.was_released(MouseButton::Left));
+    EXPECT_FALSE(input.is_down(MouseButton::Left));
+}
+
+TEST(Input, motion_is_this_frames) {
+    Input input;
+    input.move_cursor({10.0, 20.0});
+    input.begin_frame();
+    EXPECT_FALSE(input.anything_happened());
+    input.move_cursor({13.0, 16.0});
+    EXPECT_EQ(input.cursor_motion_px(), glm::dvec2(3.0, -4.0));
+    EXPECT_TRUE(input.anything_happened());
+    input.begin_frame();
+    EXPECT_EQ(input.cursor_motion_px(), glm::dvec2(0.0));
+    EXPECT_EQ(input.cursor_px(), glm::dvec2(13.0, 16.0));
+}
+
+TEST(Input, a_window_without_the_keyboard_holds_nothing) {
+    Input input;
+    input.press(Key::LeftShift);
+    input.press(MouseButton::Right);
+    input.begin_frame();
+    input.release_all();
+    EXPECT_FALSE(input.shift());
+    EXPECT_FALSE(input.is_down(MouseButton::Right));
+    EXPECT_TRUE(input.was_released(MouseButton::Right));
+    EXPECT_FALSE(input.was_released(MouseButton::Left));
+}
+
+TEST(Input, every_key_has_a_name_of_its_own) {
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < key_count; ++i) {
+        const auto key = static_cast<Key>(i);
+        ASSERT_FALSE(name_of(key).empty()) << i;
+        EXPECT_TRUE(names.insert(name_of(key)).second) << name_of(key);
+        EXPECT_EQ(key_named(name_of(key)), key);
+    }
+    EXPECT_EQ(name_of(Key::Digit7), "7");
+    EXPECT_EQ(name_of(Key::F12), "F12");
+    EXPECT_EQ(name_of(Key::RightAlt), "RightAlt");
+    EXPECT_FALSE(key_named("w"));
+}
+
+}  // namespace
+}  // namespace gnomon::input
