@@ -56,6 +56,10 @@ const std::vector<Layer>& layers() {
          {"modules/ui/"},
          {"gpu", "input"},
          {"glm/", "tl/", "fmt/", "imgui.h", "gnomon_shaders/ui.hpp"}},
+        {"window",
+         {"modules/window/"},
+         {"gl", "vk", "gpu", "input"},
+         {"glm/", "tl/", "fmt/", "GLFW/", "vulkan/"}},
         {"gl", {"backends/gl/"}, {"gpu"}, {"tl/", "fmt/", "GL/", "GLFW/", "KHR/", "dlfcn.h"}},
         {"vk", {"backends/vk/"}, {"gpu"}, {"tl/", "fmt/", "vulkan/", "volk.h", "dlfcn.h"}},
     };
