@@ -50,9 +50,15 @@ constexpr std::uint32_t round_stride =
 
 Status Renderer::State::create() {
     if (const Status made = gpu_scene.create(); !made) return made;
-    auto made_targets = internal::create_targets(*device, desc);
-    if (!made_targets) return forward_error(made_targets);
-    targets = std::move(*made_targets);
+    auto made_sampler = device->create_sampler({.label = "texels"});
+    if (!made_sampler) return forward_error(made_sampler);
+    sampler = std::move(*made_sampler);
+    if (const Status made = create_passes(); !made) return made;
+    return create_targets();
+}
+
+// Whatever does not depend on the size.
+Status Renderer::State::create_passes() {
     auto pass = shadow_pass::ShadowPass::create(
         *device,
         {.depth_stencil_format = desc.depth_stencil_format,
@@ -72,10 +78,17 @@ Status Renderer::State::create() {
     if (!made_pipelines) return forward_error(made_pipelines);
     pipelines = std::move(*made_pipelines);
 
-    if (const Status made = create_overlays(); !made) return made;
-    auto made_sampler = device->create_sampler({.label = "texels"});
-    if (!made_sampler) return forward_error(made_sampler);
-    this->sampler = std::move(*made_sampler);
+    // Their bind groups are of the old layouts.
+    overlay = {};
+    draws = {};
+    rounds = {};
+    return create_overlays();
+}
+
+Status Renderer::State::create_targets() {
+    auto made_targets = internal::create_targets(*device, desc);
+    if (!made_targets) return forward_error(made_targets);
+    targets = std::move(*made_targets);
     auto group = device->create_bind_group(
         {.label = "tone map",
          .layout = pipelines.tone_map_layout,
@@ -402,6 +415,20 @@ Status Renderer::upload(const scene::Scene& scene) {
     state_->bounds.reset();
     state_->recorded.reset();
     return state_->gpu_scene.upload(scene);
+}
+
+Status Renderer::reconfigure(const RendererDesc& desc) {
+    State& s = *state_;
+    RendererDesc resized = s.desc;
+    resized.width = desc.width;
+    resized.height = desc.height;
+    if (desc == s.desc) return {};
+    s.desc = desc;
+    s.recorded.reset();
+    if (desc != resized) {
+        if (const Status made = s.create_passes(); !made) return made;
+    }
+    return s.create_targets();
 }
 
 Status Renderer::render(const FrameInput& input) {

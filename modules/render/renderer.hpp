@@ -39,6 +39,7 @@ struct Overlays {
     [[nodiscard]] bool any() const {
         return volumes || silhouettes || caps || wireframe || count || fill;
     }
+    bool operator==(const Overlays&) const = default;
 };
 
 struct RendererDesc {
@@ -55,6 +56,7 @@ struct RendererDesc {
     bool cull_back_faces = false;  ///< default: both sides of every triangle go into depth
     Overlays overlays = {};
     bool meter_fill = false;  ///< for Renderer::measure_fill()
+    bool operator==(const RendererDesc&) const = default;
 };
 
 /// What there is without any light, and how bright lights come out. Linear; the defaults are a
@@ -103,6 +105,13 @@ public:
     /// Meshes and materials of a scene. Call it again when some are added or replaced; poses,
     /// lights and deformed vertices are read by render(), the last uploaded when they changed.
     [[nodiscard]] Status upload(const scene::Scene& scene);
+
+    /// Goes on with another description, as if created with it, and keeps the scene that was
+    /// uploaded: for windows whose size changes, and debug views that come and go. Cost: the
+    /// targets where only the size differs; else pipelines as well, and volumes are uploaded anew;
+    /// nothing where nothing differs. picture() and depth_stencil() are others then. Fails as
+    /// create() does; after that, draw with a new renderer.
+    [[nodiscard]] Status reconfigure(const RendererDesc& desc);
 
     /// One frame, submitted; does not wait for the device.
     [[nodiscard]] Status render(const FrameInput& frame);

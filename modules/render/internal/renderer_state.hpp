@@ -95,6 +95,8 @@ struct Renderer::State {
         : device(&d), desc(description), gpu_scene(d), encoder(d.create_command_encoder("frame")) {}
 
     Status create();
+    Status create_passes();
+    Status create_targets();
     Status create_overlays();
     Status write(internal::Uniforms& uniforms, const char* label, gpu::BindGroupLayoutId layout,
                  std::uint32_t binding, std::uint64_t size, std::span<const std::byte> bytes);
