@@ -19,8 +19,12 @@
 #include "devices.hpp"
 #include "inspect_command.hpp"
 #include "render_options.hpp"
+#include "scene_arguments.hpp"
 #if GNOMON_HAS_REPORT
 #include "report_arguments.hpp"
+#endif
+#if GNOMON_HAS_VIEW
+#include "view/view_options.hpp"
 #endif
 
 namespace {
@@ -34,23 +38,6 @@ int exit_code(ErrorCode code) {
 int report(const Error& error) {
     fmt::print(stderr, "gnomon: {}\n", cli::one_line(error.message));
     return exit_code(error.code);
-}
-
-// CLI11 validates by exception and wants a string; our parsers give Results.
-template <class T, class Parser>
-std::function<void(const std::string&)> parsed_into(T& target, Parser parse) {
-    return [&target, parse](const std::string& text) {
-        auto value = parse(text);
-        if (!value) throw CLI::ValidationError("", value.error().message);
-        target = std::move(*value);
-    };
-}
-
-CLI::Validator not_empty() {
-    return {[](const std::string& text) {
-                return text.empty() ? std::string("the name is empty") : std::string();
-            },
-            ""};
 }
 
 void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
@@ -69,7 +56,7 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
         "  gnomon render city.glb --frames 100 --animate light:0.5 --stats city.json",
         fmt::join(scene::builtin_scene_names(), ", ")));
     render->add_option("scene", o.scene, "The scene to draw")->type_name("SCENE");
-    const CLI::Validator named = not_empty();
+    const CLI::Validator named = cli::not_empty();
     render->add_option("--out", o.out, "Write the picture here (PNG)")
         ->check(named)
         ->type_name("IMAGE.png");
@@ -93,140 +80,16 @@ void add_render(CLI::App& app, cli::RenderOptions& o, bool& list_silhouettes) {
         ->check(CLI::IsMember(cli::backend_names()));
     render->add_option("--gl-stencil", o.gl_stencil, "Force OpenGL's stencil path")
         ->check(CLI::IsMember({"two-side", "separate", "two-pass"}));
-    render
-        ->add_option_function<std::string>("--size", parsed_into(o.size, cli::parse_size),
-                                           "Pixels; default 1280x720")
-        ->type_name("WIDTHxHEIGHT");
-    render->add_option("--samples", o.samples, "Samples a pixel: 1 or 4")
-        ->check(CLI::IsMember({1, 4}));
-    const auto vector = [](const char* what) {
-        return [what](const std::string& text) { return cli::parse_vector(text, what); };
-    };
-    render
-        ->add_option_function<std::string>("--eye", parsed_into(o.eye, vector("--eye")),
-                                           "Where the camera stands")
-        ->type_name("x,y,z");
-    render
-        ->add_option_function<std::string>("--target", parsed_into(o.target, vector("--target")),
-                                           "What it looks at")
-        ->type_name("x,y,z");
-    render
-        ->add_option_function<std::string>(
-            "--up",
-            parsed_into(o.up,
-                        [](const std::string& text) -> Result<glm::dvec3> {
-                            auto up = cli::parse_vector(text, "--up");
-                            if (up && glm::length(*up) < cli::smallest_length) {
-                                return fail(ErrorCode::InvalidInput,
-                                            fmt::format("--up: \"{}\" has no direction.", text));
-                            }
-                            return up;
-                        }),
-            "Which way is up; default 0,1,0")
-        ->type_name("x,y,z");
-    const auto number = [](const char* what, double min, double max) {
-        return [=](const std::string& text) { return cli::parse_number(text, what, min, max); };
-    };
-    render
-        ->add_option_function<std::string>("--fovy",
-                                           parsed_into(o.fovy_deg, number("--fovy", 0.01, 179.0)),
-                                           "Vertical field of view in degrees; default 45")
-        ->type_name("DEGREES");
-    render
-        ->add_option_function<std::vector<std::string>>(
-            "--light",
-            [&o](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) {
-                    auto light = cli::parse_light(text);
-                    if (!light) throw CLI::ValidationError("", light.error().message);
-                    o.lights.push_back(*light);
-                }
-            },
-            "point:x,y,z[,range=R] or dir:x,y,z (the way it travels); repeatable")
-        ->type_name("LIGHT")
-        ->allow_extra_args(false);
-    render
-        ->add_option("--max-shadowed-lights", o.max_shadowed_lights,
-                     "At most this many lights cast shadows: those that bring most to what the "
-                     "camera looks at. The others shine through everything")
-        ->check(CLI::Range(0, 1000000));
-    render->add_option("--casters", o.casters, "Only nodes whose name matches cast")
-        ->type_name("GLOB");
-    render->add_option("--receivers", o.receivers, "Only nodes whose name matches are drawn")
-        ->type_name("GLOB");
-    render
-        ->add_option_function<std::string>(
-            "--cull", [&o](const std::string& text) { o.cull_back = text == "back"; },
-            "Which faces are left out of the picture; default none")
-        ->check(CLI::IsMember({"none", "back"}));
-    render
-        ->add_option_function<std::string>(
-            "--technique",
-            [&o](const std::string& text) {
-                if (text == "zpass") o.technique = shadows::Technique::DepthPass;
-                if (text == "zfail") o.technique = shadows::Technique::DepthFail;
-            },
-            "Depth-pass, depth-fail, or chosen per caster and light (auto)")
-        ->check(CLI::IsMember({"auto", "zpass", "zfail"}));
-    render
-        ->add_option_function<std::string>(
-            "--caps",
-            [&o](const std::string& text) {
-                if (text == "averted") o.near_caps = shadows::NearCaps::Averted;
-            },
-            "Which faces of closed casters carry near caps; averted: those turned away from the "
-            "light, which smooth normals alone then shade. Default facing")
-        ->check(CLI::IsMember({"facing", "averted"}));
-    render->add_option("--silhouette", o.silhouette, "How silhouettes are found")
-        ->type_name("auto|NAME");
-    render
-        ->add_option_function<std::string>(
-            "--layers",
-            [&o](const std::string& text) {
-                if (text == "promised") o.layer_bound = shadows::LayerBound::Promised;
-            },
-            "Whether it is proved that no point lies under more layers than the stencil counts, or "
-            "you promise it, so that nothing is bounded nor split. Default proved")
-        ->check(CLI::IsMember({"proved", "promised"}));
-    render
-        ->add_option_function<std::string>(
-            "--without", parsed_into(o.fill, cli::parse_without),
-            "Savings of fill to do without, for measurements: view-cull,receiver-cull,umbra-"
-            "cull,clamp,slabs,scissor,depth-bounds; all")
-        ->type_name("LIST");
+    cli::add_scene_options(*render, o);
     render->add_flag("--list-silhouettes", list_silhouettes, "List the names for --silhouette");
-    render
-        ->add_option_function<std::string>(
-            "--show", parsed_into(o.overlays, cli::parse_overlays),
-            "Debug views: volumes,silhouettes,caps,wireframe,count,fill")
-        ->type_name("LIST");
     render->add_option("--frames", o.frames, "How many frames; the last one is written")
         ->check(CLI::Range(1, 1000000));
     render
         ->add_option_function<std::string>(
-            "--animate", parsed_into(o.motion, cli::parse_motion),
+            "--animate", cli::parsed_into(o.motion, cli::parse_motion),
             "static, camera, light:DEG a frame, casters:K, or time:SECONDS a frame: "
             "the scene's animations, from --time on")
         ->type_name("MOTION");
-    render
-        ->add_option_function<std::string>(
-            "--time", parsed_into(o.time_s, number("--time", -1e9, 1e9)),
-            "Pose the scene as its animations have it at this time; they loop. All frames have "
-            "this pose, unless --animate time:SECONDS moves on from it")
-        ->type_name("SECONDS");
-    render
-        ->add_option(
-            "--animation", o.animation,
-            "Which animation is played, at --time or at 0: its name, or its number from 0; "
-            "default the first of each model")
-        ->check(named)
-        ->type_name("NAME|INDEX");
-    render
-        ->add_option_function<std::string>(
-            "--near",
-            parsed_into(o.near_m, number("--near", cli::smallest_length, cli::largest_coordinate)),
-            "Near plane in metres; default 1e-5 of the scene's diagonal")
-        ->type_name("METRES");
     render->add_flag("--quiet", o.quiet, "No notes and no progress line");
 }
 
@@ -257,7 +120,7 @@ const CLI::App* add_inspect(CLI::App& app, cli::InspectOptions& o) {
         ->add_option("--obj", o.obj,
                      "Write the offending edges here as lines, and the faces without area: one "
                      "object a mesh and kind, in the mesh's own space")
-        ->check(not_empty())
+        ->check(cli::not_empty())
         ->type_name("FILE.obj");
     return inspect;
 }
@@ -279,6 +142,17 @@ int run(int argc, char** argv) {
     bool list_techniques = false;
     const CLI::App* report_app = cli::add_report(app, report_options, list_techniques);
     commands.emplace_back("report");
+#endif
+#if GNOMON_HAS_VIEW
+    cli::ViewOptions view;
+    const CLI::App* view_app = cli::add_view(app, view);
+    commands.emplace_back("view");
+#else
+    if (argc > 1 && std::string_view(argv[1]) == "view") {
+        return report({ErrorCode::Unsupported,
+                       "This build has no view: GLFW or Dear ImGui was not found when it was made "
+                       "(packages libglfw3-dev and libimgui-dev)."});
+    }
 #endif
 
 #if !GNOMON_HAS_REPORT
@@ -321,6 +195,12 @@ int run(int argc, char** argv) {
             return 0;
         }
         const Status done = cli::run_report(report_options);
+        return done ? 0 : report(done.error());
+    }
+#endif
+#if GNOMON_HAS_VIEW
+    if (view_app->parsed()) {
+        const Status done = cli::run_view(view);
         return done ? 0 : report(done.error());
     }
 #endif

@@ -15,21 +15,20 @@ ImU32 packed(const glm::vec4& color) {
     return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, color.a});
 }
 
-void draw_legend(const ChartHistory& history, std::span<const ChartSeries> series,
-                 const char* unit) {
+void draw_legend(const ChartHistory& history, std::span<const ChartSeries> series) {
     const float size = ImGui::GetFontSize();
-    const float column = ImGui::GetContentRegionAvail().x / 2.0F;
+    const float column = ImGui::GetContentRegionAvail().x / static_cast<float>(series.size());
     const float left = ImGui::GetCursorPosX();
     for (std::size_t i = 0; i < series.size(); ++i) {
-        if (i % 2 == 1) ImGui::SameLine(left + column);
+        if (i > 0) ImGui::SameLine(left + column * static_cast<float>(i));
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float inset = size * 0.2F;
+        const float inset = size * 0.25F;
         ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + inset},
                                                   {at.x + size - 2 * inset, at.y + size - inset},
                                                   packed(series[i].color), 2.0F);
-        ImGui::Dummy({size - inset, size});
-        ImGui::SameLine();
-        ImGui::Text("%s %.2f %s", series[i].name, static_cast<double>(history.median(i)), unit);
+        ImGui::Dummy({size - 2 * inset, size});
+        ImGui::SameLine(0.0F, inset);
+        ImGui::Text("%s %.2f", series[i].name, static_cast<double>(history.median(i)));
     }
 }
 
@@ -115,7 +114,7 @@ void draw_chart(const char* id, const ChartHistory& history, std::span<const Cha
     std::snprintf(text, sizeof text, "%g %s", static_cast<double>(scale), unit);
     list.AddText({corner.x + 5.0F, corner.y + 2.0F}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
                  text);
-    draw_legend(history, series, unit);
+    draw_legend(history, series);
 }
 
 }  // namespace gnomon::ui

@@ -43,7 +43,8 @@ private:
 };
 
 /// Within a window of the current Dear ImGui context: the chart, its scale in `unit` (a round
-/// number that holds the largest sum), and below it a legend with each series' median.
+/// number that holds the largest sum), and below it a legend in one line, with
+/// each series' median.
 void draw_chart(const char* id, const ChartHistory& history, std::span<const ChartSeries> series,
                 const char* unit, float height_px);
 

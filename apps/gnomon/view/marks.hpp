@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+//
+// What the viewer draws over the scene itself: handles of lights, what is selected, what the probe
+// found, scissors and reasons.
+#pragma once
+
+#include "view/view_state.hpp"
+
+namespace gnomon::cli {
+
+/// A light whose handle is within reach of the cursor.
+[[nodiscard]] std::optional<std::size_t> light_under(const Stage& stage, const shadows::View& view,
+                                                     const glm::uvec2& size_px,
+                                                     const glm::dvec2& cursor_px);
+
+/// Between ui::Context::begin_frame() and end_frame(), behind the panel.
+void show_marks(const ViewState& state, const Stage& stage, const shadows::View& view,
+                const glm::uvec2& size_px);
+
+}  // namespace gnomon::cli

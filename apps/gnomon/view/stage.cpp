@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "view/stage.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <gnomon/render/light_choice.hpp>
+#include <gnomon/scene/deform.hpp>
+#include <gnomon/scene/transforms.hpp>
+
+#include "view/mover.hpp"
+
+namespace gnomon::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+Stage::Stage(const RenderOptions& options, Shot shot) : options_(options), shot_(std::move(shot)) {
+    shot_.scene.registry.each<scene::Receiver, scene::MeshInstance>(
+        [&](scene::Entity, const scene::Receiver&, const scene::MeshInstance& instance) {
+            triangles_ += instance.mesh->triangle_count();
+        });
+    find_lights();
+}
+
+Result<Stage> Stage::load(const RenderOptions& options) {
+    auto shot = make_shot(options);
+    if (!shot) return forward_error(shot);
+    return Stage(options, std::move(*shot));
+}
+
+void Stage::find_lights() {
+    scene::Registry& registry = shot_.scene.registry;
+    const auto collect = [&](scene::Entity entity, const auto& component) {
+        lights_.push_back({.entity = entity, .name = name_of(entity), .component = component});
+    };
+    registry.each<scene::DirectionalLight>(collect);
+    registry.each<scene::PointLight>(collect);
+    registry.each<scene::SpotLight>(collect);
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        std::string& name = lights_[i].name;
+        // What --light made, or a file without names.
+        if (name.empty() || name == "--light") name = fmt::format("light {}", i + 1);
+    }
+}
+
+render::RendererDesc Stage::renderer_desc(const glm::uvec2& size_px) const {
+    return {.width = size_px.x,
+            .height = size_px.y,
+            .sample_count = options_.samples,
+            .averted_faces = options_.near_caps == shadows::NearCaps::Averted
+                                 ? shadow_pass::AvertedFaces::LeftToShading
+                                 : shadow_pass::AvertedFaces::Shadowed,
+            .cull_back_faces = options_.cull_back,
+            .overlays = options_.overlays};
+}
+
+Status Stage::set_device(gpu::Device& device, const glm::uvec2& size_px) {
+    renderer_.reset();
+    device_ = &device;
+    auto renderer = render::Renderer::create(device, renderer_desc(size_px));
+    if (!renderer) return forward_error(renderer);
+    renderer_ = std::move(*renderer);
+    return renderer_->upload(shot_.scene);
+}
+
+void Stage::drop_device() {
+    renderer_.reset();
+    device_ = nullptr;
+}
+
+Status Stage::make_system() {
+    list_ = nullptr;
+    auto system = shadows::ShadowSystem::create({.force_technique = options_.technique,
+                                                 .silhouette = options_.silhouette,
+                                                 .layer_bound = options_.layer_bound,
+                                                 .receivers = shadows::Receivers::Submitted,
+                                                 .fill = options_.fill});
+    if (!system) return forward_error(system);
+    system_.emplace(std::move(*system));
+    return {};
+}
+
+Status Stage::draw(const shadows::View& view, const glm::uvec2& size_px) {
+    GNOMON_EXPECTS(renderer_.has_value());
+    if (!system_) {
+        if (const Status made = make_system(); !made) return made;
+    }
+    if (const Status done = renderer_->reconfigure(renderer_desc(size_px)); !done) return done;
+    const auto start = Clock::now();
+    const gpu::DeviceCounters before = device_->counters();
+
+    std::vector<scene::Entity> unshadowed;
+    for (const StageLight& light : lights_) {
+        if (light.on && !light.casts) unshadowed.push_back(light.entity);
+    }
+    if (options_.max_shadowed_lights) {
+        const auto choice = render::choose_shadowed_lights(shot_.scene, shot_.bounds, view,
+                                                           *options_.max_shadowed_lights);
+        for (const scene::Entity light : choice.unshadowed) {
+            if (std::ranges::find(unshadowed, light) == unshadowed.end()) {
+                unshadowed.push_back(light);
+            }
+        }
+    }
+    list_ = nullptr;
+    auto frame = system_->begin_frame();
+    if (const Status submitted =
+            adapter_.submit(shot_.scene, frame, options_.cull_back, options_.near_caps, unshadowed);
+        !submitted) {
+        return submitted;
+    }
+    list_ = &std::move(frame).finish(view);
+    if (const Status drawn = renderer_->render({shot_.scene, view, *list_, {}, unshadowed});
+        !drawn) {
+        return drawn;
+    }
+    const auto waiting = Clock::now();
+    if (const Status idle = device_->wait_idle(); !idle) return idle;
+
+    const gpu::DeviceCounters after = device_->counters();
+    figures_.detect_ms = list_->stats.detect_ms;
+    figures_.build_ms = list_->stats.build_ms;
+    figures_.record_ms = renderer_->times().record_ms;
+    figures_.device_ms = renderer_->times().submit_ms + milliseconds_since(waiting);
+    figures_.frame_ms = milliseconds_since(start);
+    figures_.upload_bytes = after.uploaded_bytes - before.uploaded_bytes;
+    figures_.draw_calls = after.draw_calls - before.draw_calls;
+    figures_.shadows = list_->stats;
+    return {};
+}
+
+gpu::TextureId Stage::picture() const { return renderer_->picture(); }
+
+void Stage::switch_light(std::size_t place, bool on) {
+    StageLight& light = lights_[place];
+    if (light.on == on) return;
+    light.on = on;
+    std::visit(
+        [&](const auto& component) {
+            using Component = std::decay_t<decltype(component)>;
+            if (on) {
+                shot_.scene.registry.emplace<Component>(light.entity, component);
+            } else {
+                shot_.scene.registry.remove<Component>(light.entity);
+            }
+        },
+        light.component);
+}
+
+std::optional<std::size_t> Stage::light_of(scene::Entity entity) const {
+    const auto found = std::ranges::find(lights_, entity, &StageLight::entity);
+    if (found == lights_.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - lights_.begin());
+}
+
+glm::dvec3 Stage::handle_of(const StageLight& light) const {
+    const glm::dmat4& world =
+        shot_.scene.registry.get<scene::WorldTransform>(light.entity).world_from_local;
+    if (!light.directional()) return glm::dvec3(world[3]);
+    const glm::dvec3 center = shot_.bounds.empty() ? glm::dvec3(0.0) : shot_.bounds.center();
+    const double away_m = shot_.bounds.empty() ? 1.0 : 0.55 * shot_.bounds.diagonal();
+    return center + glm::normalize(glm::dvec3(world[2])) * away_m;
+}
+
+Status Stage::set_time(double time_s) { return pose_at(shot_, time_s); }
+
+double Stage::duration_s() const {
+    double longest = 0.0;
+    for (const std::size_t animation : shot_.animations) {
+        longest = std::max(longest, shot_.scene.animations[animation].duration_s);
+    }
+    return longest;
+}
+
+Status Stage::move(scene::Entity entity, const scene::LocalTransform& start_local,
+                   const glm::dmat4& motion_world) {
+    move_node(shot_.scene.registry, entity, start_local, motion_world);
+    scene::update_world_transforms(shot_.scene.registry);
+    return scene::deform(shot_.scene);
+}
+
+Result<std::optional<Probe>> Stage::probe(const Ray& ray) {
+    const auto hit = pick(ray);
+    if (!hit) return std::optional<Probe>();
+    const auto casters = adapter_.casters(shot_.scene, options_.cull_back, options_.near_caps);
+    if (!casters) return forward_error(casters);
+    queries_.update(*casters);
+    Probe probe{.hit = *hit, .answers = {}};
+    // Above what rounding does to a point of the picture's.
+    const double lift_m = std::max(1e-6 * shot_.bounds.diagonal(), 1e-9);
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        if (!lights_[i].on) continue;
+        const auto light = scene::shadow_light(shot_.scene.registry, lights_[i].entity);
+        if (!light) continue;
+        const glm::dvec3 to_light = light->position_world.w == 0.0
+                                        ? glm::dvec3(light->position_world)
+                                        : glm::dvec3(light->position_world) - hit->point_world;
+        // On the side that is seen, which may be another one than the light's.
+        const glm::dvec3 point = hit->point_world + hit->normal_world * lift_m;
+        probe.answers.push_back({.light = i,
+                                 .exposure = queries_.at(*light, point),
+                                 .faces_away = glm::dot(to_light, hit->normal_world) <= 0.0,
+                                 .surfaces = queries_.surfaces_between(*light, point)});
+    }
+    return std::optional<Probe>(std::move(probe));
+}
+
+scene::Bounds Stage::bounds_of(scene::Entity entity) const {
+    scene::Bounds bounds;
+    const scene::Registry& registry = shot_.scene.registry;
+    const auto* instance = registry.try_get<scene::MeshInstance>(entity);
+    const auto* world = registry.try_get<scene::WorldTransform>(entity);
+    if (instance == nullptr || world == nullptr) return bounds;
+    const scene::Geometry geometry = scene::geometry_of(registry, entity, *instance, *world);
+    for (const glm::vec3& p : geometry.positions) {
+        bounds.include(glm::dvec3(geometry.world_from_positions * glm::dvec4(p, 1.0)));
+    }
+    return bounds;
+}
+
+std::string Stage::name_of(scene::Entity entity) const {
+    const auto* name = shot_.scene.registry.try_get<scene::Name>(entity);
+    return name == nullptr ? std::string() : one_line(name->value);
+}
+
+}  // namespace gnomon::cli

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+//
+// Stage: a scene, its shadows and what draws them, with everything that the viewer lets one change
+// while it is looked at. It has no window: tests draw it as the viewer does.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gnomon/render/renderer.hpp>
+#include <gnomon/scene/shadow_adapter.hpp>
+#include <gnomon/shadows/shadow_query.hpp>
+
+#include "render_setup.hpp"
+#include "view/picker.hpp"
+
+namespace gnomon::cli {
+
+/// What a frame cost and drew.
+struct FrameFigures {
+    double detect_ms = 0.0;
+    double build_ms = 0.0;
+    double record_ms = 0.0;
+    double device_ms = 0.0;  ///< submission, and waiting until it is drawn
+    double frame_ms = 0.0;   ///< all of it, casters' submission included; the panel is not
+    std::uint64_t upload_bytes = 0;
+    std::uint64_t draw_calls = 0;
+    shadows::FrameStats shadows;
+};
+
+/// A light of the scene and whether it shines. The component of one that is off waits here.
+struct StageLight {
+    scene::Entity entity;
+    std::string name;
+    bool on = true;
+    bool casts = true;
+    std::variant<scene::PointLight, scene::SpotLight, scene::DirectionalLight> component;
+
+    [[nodiscard]] bool directional() const {
+        return std::holds_alternative<scene::DirectionalLight>(component);
+    }
+};
+
+/// What the shadow queries say of a point, light by light.
+struct Probe {
+    Hit hit;
+    struct Answer {
+        std::size_t light = 0;  ///< place in Stage::lights()
+        shadows::Exposure exposure = shadows::Exposure::Lit;
+        bool faces_away = false;     ///< the surface is turned away: no direct light in any case
+        std::uint32_t surfaces = 0;  ///< between the point and the light
+    };
+    std::vector<Answer> answers;
+};
+
+class Stage {
+public:
+    /// Reads the scene. Fails as make_shot() does.
+    [[nodiscard]] static Result<Stage> load(const RenderOptions& options);
+
+    /// Makes the renderer on a device and uploads the scene; again after the device was exchanged.
+    /// The device outlives it, or set_device() or drop_device() is called first.
+    [[nodiscard]] Status set_device(gpu::Device& device, const glm::uvec2& size_px);
+    void drop_device();
+
+    /// Draws, and waits until it is drawn. `options()` as they are now count.
+    [[nodiscard]] Status draw(const shadows::View& view, const glm::uvec2& size_px);
+    [[nodiscard]] gpu::TextureId picture() const;
+    [[nodiscard]] const FrameFigures& figures() const { return figures_; }
+    /// Of the last draw(); good until the next one.
+    [[nodiscard]] const shadows::DrawList& draw_list() const { return *list_; }
+    [[nodiscard]] bool has_drawn() const { return list_ != nullptr; }
+
+    /// Technique, strategy, savings, debug views, culling, samples: what may be changed between
+    /// frames. Call shadows_changed() after a change to what the shadow system is made with.
+    [[nodiscard]] RenderOptions& options() { return options_; }
+    void shadows_changed() { system_.reset(); }
+
+    [[nodiscard]] const Shot& shot() const { return shot_; }
+    [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
+
+    [[nodiscard]] const std::vector<StageLight>& lights() const { return lights_; }
+    void switch_light(std::size_t light, bool on);
+    void switch_shadow(std::size_t light, bool casts) { lights_[light].casts = casts; }
+    [[nodiscard]] std::optional<std::size_t> light_of(scene::Entity entity) const;
+    /// Where it is; of a directional light, a point towards which it stands, outside of the scene.
+    [[nodiscard]] glm::dvec3 handle_of(const StageLight& light) const;
+
+    /// Which of the scene's animations are played; places in Scene::animations.
+    void play(std::vector<std::size_t> animations) { shot_.animations = std::move(animations); }
+    [[nodiscard]] Status set_time(double time_s);
+    /// Of the longest animation that is played; 0 without.
+    [[nodiscard]] double duration_s() const;
+
+    /// Moves a node from where it was at the beginning of a drag (move_node()).
+    [[nodiscard]] Status move(scene::Entity entity, const scene::LocalTransform& start_local,
+                              const glm::dmat4& motion_world);
+
+    [[nodiscard]] std::optional<Hit> pick(const Ray& ray) { return picker_.pick(shot_.scene, ray); }
+    [[nodiscard]] Result<std::optional<Probe>> probe(const Ray& ray);
+    [[nodiscard]] scene::Bounds bounds_of(scene::Entity entity) const;
+    [[nodiscard]] std::string name_of(scene::Entity entity) const;
+
+private:
+    explicit Stage(const RenderOptions& options, Shot shot);
+    [[nodiscard]] render::RendererDesc renderer_desc(const glm::uvec2& size_px) const;
+    [[nodiscard]] Status make_system();
+    void find_lights();
+
+    RenderOptions options_;
+    Shot shot_;
+    std::vector<StageLight> lights_;
+    std::uint64_t triangles_ = 0;
+    std::optional<shadows::ShadowSystem> system_;
+    scene::ShadowAdapter adapter_;
+    shadows::ShadowQueries queries_;
+    Picker picker_;
+    gpu::Device* device_ = nullptr;
+    std::optional<render::Renderer> renderer_;
+    const shadows::DrawList* list_ = nullptr;  // the system's
+    FrameFigures figures_;
+};
+
+}  // namespace gnomon::cli

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+//
+// What the viewer lets one change: that it changes the picture, and no more than it should.
+#include "view/stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <gnomon/render/camera.hpp>
+
+#include "tests/support/devices.hpp"
+#include "view/orbit_camera.hpp"
+
+namespace gnomon::cli {
+namespace {
+
+using gnomon::test::must;
+
+constexpr glm::uvec2 size{320, 240};
+
+class OnStage : public gnomon::test::DeviceTest {
+protected:
+    void open(const std::string& source) {
+        RenderOptions options;
+        options.scene = source;
+        stage.emplace(must(Stage::load(options)));
+        must(stage->set_device(device(), size));
+        const Shot& shot = stage->shot();
+        camera = OrbitCamera(shot.camera, shot.world_from_camera, shot.near_m, shot.bounds);
+    }
+    void TearDown() override {
+        stage.reset();
+        DeviceTest::TearDown();
+    }
+    std::vector<std::byte> draw() {
+        must(stage->draw(view(), size));
+        return must(device().read_texture(stage->picture()));
+    }
+    [[nodiscard]] shadows::View view() const { return camera.view({.size_px = size}); }
+    [[nodiscard]] std::uint64_t pairs_of(shadows::Reason reason) const {
+        return stage->figures().shadows.reasons[static_cast<std::size_t>(reason)];
+    }
+
+    std::optional<Stage> stage;
+    OrbitCamera camera;
+};
+
+TEST_P(OnStage, lights_and_their_shadows_go_out_and_on_again) {
+    open("builtin:pillars");
+    ASSERT_EQ(stage->lights().size(), 2U);
+    const auto all = draw();
+    stage->switch_light(0, false);
+    const auto one = draw();
+    EXPECT_NE(one, all);
+    EXPECT_EQ(stage->draw_list().lights.size(), 1U);
+    stage->switch_light(0, true);
+    EXPECT_EQ(draw(), all);
+    stage->switch_shadow(0, false);
+    const auto shines_through = draw();
+    EXPECT_NE(shines_through, all);
+    EXPECT_NE(shines_through, one);
+    stage->switch_shadow(0, true);
+    EXPECT_EQ(draw(), all);
+    stage->switch_light(0, false);
+    stage->switch_light(1, false);
+    static_cast<void>(draw());
+    EXPECT_TRUE(stage->draw_list().lights.empty());
+}
+
+TEST_P(OnStage, every_choice_draws_the_same_shadows) {
+    open("builtin:pillars");
+    const auto picture = draw();
+    RenderOptions& options = stage->options();
+    for (const auto technique : {shadows::Technique::DepthFail, shadows::Technique::DepthPass}) {
+        options.technique = technique;
+        stage->shadows_changed();
+        EXPECT_EQ(draw(), picture);
+        EXPECT_EQ(stage->figures().shadows.zpass_pairs == 0,
+                  technique == shadows::Technique::DepthFail);
+    }
+    options.technique.reset();
+    options.silhouette = "brute_force";
+    options.fill = shadows::FillOptions::none();
+    stage->shadows_changed();
+    EXPECT_EQ(draw(), picture);
+    options.overlays.silhouettes = true;
+    EXPECT_NE(draw(), picture);
+    options.overlays = {};
+    EXPECT_EQ(draw(), picture);
+}
+
+TEST_P(OnStage, dragging_a_light_finds_its_silhouettes_alone) {
+    open("builtin:pillars");
+    static_cast<void>(draw());
+    const auto before = draw();
+    EXPECT_EQ(stage->figures().shadows.pairs_redetected, 0U);
+    const auto lantern =
+        std::ranges::find_if(stage->lights(), [](const StageLight& l) { return !l.directional(); });
+    ASSERT_NE(lantern, stage->lights().end());
+    const auto start = stage->shot().scene.registry.get<scene::LocalTransform>(lantern->entity);
+    must(stage->move(lantern->entity, start,
+                     glm::translate(glm::dmat4(1.0), glm::dvec3(1.5, 0.5, 0.0))));
+    EXPECT_NE(draw(), before);
+    EXPECT_GT(pairs_of(shadows::Reason::LightMoved), 0U);
+    EXPECT_LE(stage->figures().shadows.pairs_redetected, stage->figures().shadows.casters);
+    must(stage->move(lantern->entity, start, glm::dmat4(1.0)));
+    EXPECT_EQ(draw(), before);
+}
+
+TEST_P(OnStage, dragging_a_caster_moves_its_shadow) {
+    open("builtin:pillars");
+    static_cast<void>(draw());
+    const auto before = draw();
+    // It has holes.
+    std::optional<Hit> knot;
+    for (double x = 100.0; x < 220.0 && !knot; x += 5.0) {
+        const auto hit = stage->pick(ray_through(view(), {x, 100.0}, size));
+        if (hit && stage->name_of(hit->entity) == "knot") knot = hit;
+    }
+    ASSERT_TRUE(knot);
+    const auto start = stage->shot().scene.registry.get<scene::LocalTransform>(knot->entity);
+    must(stage->move(knot->entity, start,
+                     glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.0, 0.0))));
+    EXPECT_NE(draw(), before);
+    EXPECT_EQ(pairs_of(shadows::Reason::CasterMoved), stage->figures().shadows.pairs_redetected);
+    EXPECT_LE(stage->figures().shadows.pairs_redetected, 2U);
+}
+
+// The probe says what the picture shows: where it says "in shadow", the stencil has a count.
+TEST_P(OnStage, the_probe_and_the_stencil_agree) {
+    open("builtin:pillars");
+    for (std::size_t i = 1; i < stage->lights().size(); ++i) stage->switch_light(i, false);
+    static_cast<void>(draw());
+    render::Renderer renderer =
+        must(render::Renderer::create(device(), {.width = size.x, .height = size.y}));
+    must(renderer.upload(stage->shot().scene));
+    must(renderer.render({stage->shot().scene, view(), stage->draw_list()}));
+    const auto counts = must(render::read_stencil(device(), renderer));
+    int shadowed = 0;
+    int lit = 0;
+    int wrong = 0;
+    for (unsigned y = 4; y < size.y; y += 6) {
+        for (unsigned x = 4; x < size.x; x += 6) {
+            const auto probe = must(stage->probe(ray_through(view(), {x, y}, size)));
+            if (!probe) continue;
+            ASSERT_EQ(probe->answers.size(), 1U);
+            if (probe->answers[0].faces_away) continue;
+            const bool dark = probe->answers[0].exposure == shadows::Exposure::Shadowed;
+            EXPECT_EQ(dark, probe->answers[0].surfaces > 0);
+            const bool counted = counts[y * size.x + x] != std::byte{0};
+            (dark ? shadowed : lit) += 1;
+            wrong += dark != counted ? 1 : 0;
+        }
+    }
+    EXPECT_GT(shadowed, 50);
+    EXPECT_GT(lit, 50);
+    // Pixels whose middle a shadow's edge passes.
+    EXPECT_LE(wrong, (shadowed + lit) / 200);
+}
+
+TEST_P(OnStage, plays_what_the_scene_has) {
+    open("builtin:walk");
+    ASSERT_FALSE(stage->shot().scene.animations.empty());
+    stage->play(scene::find_animations(stage->shot().scene));
+    EXPECT_GT(stage->duration_s(), 0.0);
+    must(stage->set_time(0.1));
+    const auto early = draw();
+    must(stage->set_time(0.4));
+    EXPECT_NE(draw(), early);
+    EXPECT_GT(pairs_of(shadows::Reason::MeshChanged), 0U);
+    must(stage->set_time(0.1));
+    EXPECT_EQ(draw(), early);
+}
+
+TEST_P(OnStage, goes_on_with_another_device) {
+    open("builtin:pillars");
+    const auto before = draw();
+    stage->drop_device();
+    must(stage->set_device(device(), size));
+    EXPECT_EQ(draw(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Devices, OnStage, testing::ValuesIn(gnomon::test::drawing_devices()),
+                         gnomon::test::device_case_name);
+
+}  // namespace
+}  // namespace gnomon::cli
