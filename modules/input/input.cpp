@@ -49,6 +49,7 @@ void Input::begin_frame() {
     text.clear();
     dropped_files.clear();
     commands.clear();
+    redraw_requested = false;
 }
 
 void Input::press(Key key) {
@@ -79,7 +80,7 @@ void Input::release_all() {
 bool Input::anything_happened() const {
     return keys_pressed_.any() || buttons_pressed_.any() || buttons_released_.any() ||
            cursor_motion_px() != glm::dvec2(0.0) || scroll != glm::dvec2(0.0) || !text.empty() ||
-           !dropped_files.empty() || !commands.empty() || close_requested;
+           !dropped_files.empty() || !commands.empty() || redraw_requested || close_requested;
 }
 
 }  // namespace gnomon::input

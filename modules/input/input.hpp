@@ -96,6 +96,7 @@ public:
     std::u32string text;     ///< characters typed this frame
     std::vector<std::string> dropped_files;
     std::vector<std::string> commands;  ///< of a script: what only the program understands
+    bool redraw_requested = false;      ///< what the window showed has been lost
     bool close_requested = false;       ///< stays
     std::optional<Gamepad> gamepad;     ///< now; none: none is connected
 

@@ -117,6 +117,8 @@ void report_events(GLFWwindow* window, input::Input& input) {
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         input_of(w).dropped_files.insert(input_of(w).dropped_files.end(), paths, paths + count);
     });
+    glfwSetWindowRefreshCallback(window,
+                                 [](GLFWwindow* w) { input_of(w).redraw_requested = true; });
     glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { input_of(w).close_requested = true; });
     glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
         if (focused == GLFW_FALSE) input_of(w).release_all();

@@ -74,7 +74,7 @@ TEST_F(Usage, unknown_words_are_refused_by_name) {
 }
 
 TEST_F(Usage, commands_of_later_work_are_refused_like_any_other) {
-    for (const char* command : {"profile", "view"})
+    for (const char* command : {"profile", "serve"})
         expect_refused({command, "builtin:knot"}, {command});
 }
 

@@ -173,6 +173,33 @@ TEST_P(OnStage, plays_what_the_scene_has) {
     EXPECT_EQ(draw(), early);
 }
 
+TEST_P(OnStage, a_skinned_figure_is_dragged_with_its_joints) {
+    open("builtin:walk");
+    const scene::Registry& registry = stage->shot().scene.registry;
+    std::optional<scene::Entity> figure;
+    registry.each<scene::Skin>([&](scene::Entity entity, const scene::Skin&) {
+        if (!figure) figure = entity;
+    });
+    ASSERT_TRUE(figure);
+    const scene::Bounds before = stage->bounds_of(*figure);
+    const scene::Entity node = stage->handle_node(*figure);
+    const auto start = stage->shot().scene.registry.get<scene::LocalTransform>(node);
+    must(stage->move(node, start, glm::translate(glm::dmat4(1.0), glm::dvec3(0.5, 0.25, 0.0))));
+    const scene::Bounds after = stage->bounds_of(*figure);
+    EXPECT_NEAR(after.min.x - before.min.x, 0.5, 1e-5);
+    EXPECT_NEAR(after.max.y - before.max.y, 0.25, 1e-5);
+}
+
+TEST_P(OnStage, a_ground_takes_the_shadow_and_goes_again) {
+    open("builtin:open-shapes");
+    const auto before = draw();
+    stage->show_ground(true);
+    EXPECT_TRUE(stage->has_ground());
+    EXPECT_NE(draw(), before);
+    stage->show_ground(false);
+    EXPECT_EQ(draw(), before);
+}
+
 TEST_P(OnStage, goes_on_with_another_device) {
     open("builtin:pillars");
     const auto before = draw();

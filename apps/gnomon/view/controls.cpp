@@ -28,6 +28,7 @@ Status Viewer::handle_keys(const input::Input& input) {
     if (pressed(Key::Tab)) state_.panel = !state_.panel;
     if (pressed(Key::F1)) state_.help = !state_.help;
     if (pressed(Key::Q)) state_.probes = !state_.probes;
+    if (pressed(Key::G)) stage_.show_ground(!stage_.has_ground());
     if (pressed(Key::P)) state_.wishes.screenshot = true;
     if (pressed(Key::B)) state_.wishes.other_backend = true;
     if (pressed(Key::F)) state_.wishes.frame_all = true;
@@ -117,8 +118,8 @@ void Viewer::begin_drag(const input::Input& input, MouseButton button) {
 
 void Viewer::begin_object_drag(const Ray& ray) {
     const scene::Bounds& all = stage_.shot().bounds;
-    drag_->start_local =
-        stage_.shot().scene.registry.get<scene::LocalTransform>(state_.selection.entity);
+    drag_->node = stage_.handle_node(state_.selection.entity);
+    drag_->start_local = stage_.shot().scene.registry.get<scene::LocalTransform>(drag_->node);
     drag_->pivot = all.empty() ? glm::dvec3(0.0) : all.center();
     if (state_.selection.kind == Selection::Kind::Light) {
         const StageLight& light = stage_.lights()[*stage_.light_of(state_.selection.entity)];
@@ -155,7 +156,7 @@ Status Viewer::drag_object(const input::Input& input) {
             motion = glm::translate(glm::dmat4(1.0), *way);
         }
     }
-    return stage_.move(state_.selection.entity, drag_->start_local, motion);
+    return stage_.move(drag_->node, drag_->start_local, motion);
 }
 
 void Viewer::end_drag() {

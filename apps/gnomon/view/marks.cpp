@@ -16,6 +16,8 @@ namespace gnomon::cli {
 namespace {
 
 constexpr double reach_px = 16.0;
+/// Lights that the probe names; the others it counts.
+constexpr std::size_t most_answers = 8;
 
 ImU32 packed(const glm::vec4& color, float alpha = 1.0F) {
     return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, color.a * alpha});
@@ -53,7 +55,9 @@ void show_lights(ImDrawList& list, const ViewState& state, const Stage& stage,
         const ImVec2 c = at(*pixel);
         const glm::vec4 color =
             light.on ? color_of_light(light) : glm::vec4(0.5F, 0.5F, 0.5F, 1.0F);
-        const float radius = light.directional() ? 7.0F : 5.5F;
+        // Of many lights, dots.
+        const float radius =
+            light.directional() ? 7.0F : (stage.lights().size() > 16 ? 3.5F : 5.5F);
         list.AddCircleFilled(c, radius + 2.0F, IM_COL32(15, 17, 21, 200));
         list.AddCircleFilled(c, radius, packed(color));
         if (light.directional()) draw_sun(list, c, radius, packed(color), 2.0F);
@@ -117,6 +121,7 @@ void show_probe(ImDrawList& list, const ViewState& state, const Stage& stage,
     if (!pixel) return;
     const ui::Palette colors = ui::palette();
     for (const Probe::Answer& answer : probe.answers) {
+        if (answer.exposure == shadows::Exposure::OutOfRange) continue;
         const auto light = pixel_of(view, stage.handle_of(stage.lights()[answer.light]), size_px);
         if (!light) continue;
         const bool lit = answer.exposure == shadows::Exposure::Lit && !answer.faces_away;
@@ -143,13 +148,17 @@ void show_probe(ImDrawList& list, const ViewState& state, const Stage& stage,
     };
     ImGui::TextDisabled("%.*f, %.*f, %.*f m", places, rounded(p.x), places, rounded(p.y), places,
                         rounded(p.z));
+    std::size_t out_of_range = 0;
+    std::size_t shown = 0;
     for (const Probe::Answer& answer : probe.answers) {
         const char* what = "lit";
         glm::vec4 color = colors.good;
         if (answer.exposure == shadows::Exposure::OutOfRange) {
-            what = "out of range";
-            color = colors.dim;
-        } else if (answer.exposure == shadows::Exposure::Shadowed) {
+            ++out_of_range;
+            continue;
+        }
+        if (++shown > most_answers) continue;
+        if (answer.exposure == shadows::Exposure::Shadowed) {
             what = "in shadow";
             color = colors.bad;
         } else if (answer.faces_away) {
@@ -163,6 +172,8 @@ void show_probe(ImDrawList& list, const ViewState& state, const Stage& stage,
             ImGui::TextDisabled("%u between", answer.surfaces);
         }
     }
+    if (shown > most_answers) ImGui::TextDisabled("and %zu more", shown - most_answers);
+    if (out_of_range > 0) ImGui::TextDisabled("%zu out of range", out_of_range);
     ImGui::End();
 }
 

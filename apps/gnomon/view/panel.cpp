@@ -54,9 +54,12 @@ bool section(const char* name, bool open = true) {
 void show_title(ViewState& state, const Stage& stage) {
     const std::string name = std::filesystem::path(state.source).filename().string();
     ImGui::TextUnformatted(name.c_str());
-    ImGui::TextDisabled(
-        "%s triangles, %s casters, %zu lights", with_thousands(stage.triangles()).c_str(),
-        with_thousands(stage.figures().shadows.casters).c_str(), stage.lights().size());
+    const auto counted = [](std::uint64_t number, const char* what) {
+        return fmt::format("{} {}{}", with_thousands(number), what, number == 1 ? "" : "s");
+    };
+    ImGui::TextDisabled("%s, %s, %s", counted(stage.triangles(), "triangle").c_str(),
+                        counted(stage.figures().shadows.casters, "caster").c_str(),
+                        counted(stage.lights().size(), "light").c_str());
     const bool gl = state.backend == "gl";
     ImGui::BeginDisabled(!state.can_switch);
     if (ImGui::RadioButton("OpenGL", gl) && !gl) state.wishes.other_backend = true;
@@ -74,9 +77,9 @@ void show_title(ViewState& state, const Stage& stage) {
 void show_times(const ViewState& state) {
     if (!section("Times")) return;
     ui::draw_chart("shadow times", state.shadow_times, shadow_series, "ms, shadows on the CPU",
-                   44.0F);
+                   38.0F);
     ImGui::Spacing();
-    ui::draw_chart("frame times", state.frame_times, frame_series, "ms, frame", 44.0F);
+    ui::draw_chart("frame times", state.frame_times, frame_series, "ms, frame", 38.0F);
 }
 
 void show_overlays(ViewState& state, Stage& stage) {
@@ -96,8 +99,10 @@ void show_overlays(ViewState& state, Stage& stage) {
     box("fill", show.fill, "Stencil fragments as a heat map of powers of two (6)");
     box("scissors", state.scissors, "What each volume is cut to");
     box("reasons", state.reasons, "Why each volume was made or kept, as colours");
+    bool ground = stage.has_ground();
+    box("ground", ground, "A floor below everything (G)");
+    if (ground != stage.has_ground()) stage.show_ground(ground);
     box("probe", state.probes, "What the shadow queries say of the point under the mouse (Q)");
-    box("hints", state.help, "The line at the bottom (F1)");
     ImGui::EndTable();
 }
 
@@ -142,12 +147,13 @@ void show_choices(Stage& stage) {
         o.silhouette = strategies[static_cast<std::size_t>(strategy)];
         changed = true;
     }
-    static const std::vector<std::string> caps{"facing", "averted"};
-    int near_caps = o.near_caps == shadows::NearCaps::Averted ? 1 : 0;
-    if (choose("near caps", caps, near_caps)) {
-        o.near_caps = near_caps == 1 ? shadows::NearCaps::Averted : shadows::NearCaps::Facing;
-    }
-    if (ImGui::TreeNodeEx("savings of fill", ImGuiTreeNodeFlags_NoTreePushOnOpen)) {
+    if (ImGui::TreeNodeEx("caps and savings", ImGuiTreeNodeFlags_NoTreePushOnOpen)) {
+        static const std::vector<std::string> caps{"facing", "averted"};
+        int near_caps = o.near_caps == shadows::NearCaps::Averted ? 1 : 0;
+        if (choose("near caps", caps, near_caps)) {
+            o.near_caps = near_caps == 1 ? shadows::NearCaps::Averted : shadows::NearCaps::Facing;
+        }
+
         if (ImGui::BeginTable("savings", 2)) {
             const auto box = [&](const char* name, bool& on) {
                 ImGui::TableNextColumn();
@@ -171,7 +177,13 @@ void show_choices(Stage& stage) {
 
 void show_lights(ViewState& state, Stage& stage) {
     if (!section("Lights")) return;
-    if (!ImGui::BeginTable("lights", 3, ImGuiTableFlags_SizingFixedFit)) return;
+    constexpr std::size_t most_rows = 8;
+    const bool scrolls = stage.lights().size() > most_rows;
+    const float height =
+        scrolls ? static_cast<float>(most_rows) * ImGui::GetFrameHeightWithSpacing() : 0.0F;
+    const ImGuiTableFlags flags =
+        ImGuiTableFlags_SizingFixedFit | (scrolls ? ImGuiTableFlags_ScrollY : 0);
+    if (!ImGui::BeginTable("lights", 3, flags, {0.0F, height})) return;
     const glm::vec4 accent = ui::palette().accent;
     ImGui::PushStyleColor(ImGuiCol_Header, {accent.r, accent.g, accent.b, 0.30F});
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);

@@ -8,6 +8,7 @@
 
 #include <gnomon/render/light_choice.hpp>
 #include <gnomon/scene/deform.hpp>
+#include <gnomon/scene/primitives.hpp>
 #include <gnomon/scene/transforms.hpp>
 
 #include "view/mover.hpp"
@@ -46,10 +47,15 @@ void Stage::find_lights() {
     registry.each<scene::DirectionalLight>(collect);
     registry.each<scene::PointLight>(collect);
     registry.each<scene::SpotLight>(collect);
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
-        std::string& name = lights_[i].name;
+    std::size_t suns = 0;
+    std::size_t lamps = 0;
+    for (StageLight& light : lights_) {
         // What --light made, or a file without names.
-        if (name.empty() || name == "--light") name = fmt::format("light {}", i + 1);
+        if (!light.name.empty() && light.name != "--light") continue;
+        std::size_t& number = light.directional() ? suns : lamps;
+        ++number;
+        light.name = light.directional() ? "sun" : "lamp";
+        if (number > 1) light.name += fmt::format(" {}", number);
     }
 }
 
@@ -96,6 +102,9 @@ Status Stage::draw(const shadows::View& view, const glm::uvec2& size_px) {
         if (const Status made = make_system(); !made) return made;
     }
     if (const Status done = renderer_->reconfigure(renderer_desc(size_px)); !done) return done;
+    if (std::exchange(upload_due_, false)) {
+        if (const Status uploaded = renderer_->upload(shot_.scene); !uploaded) return uploaded;
+    }
     const auto start = Clock::now();
     const gpu::DeviceCounters before = device_->counters();
 
@@ -172,6 +181,33 @@ glm::dvec3 Stage::handle_of(const StageLight& light) const {
     return center + glm::normalize(glm::dvec3(world[2])) * away_m;
 }
 
+void Stage::show_ground(bool shown) {
+    if (shown == has_ground() || shot_.bounds.empty()) return;
+    scene::Registry& registry = shot_.scene.registry;
+    upload_due_ = true;
+    if (!shown) {
+        registry.destroy(*ground_);
+        ground_.reset();
+        return;
+    }
+    const double size_m = std::max(shot_.bounds.diagonal(), 1e-6);
+    const glm::dvec3 middle = shot_.bounds.center();
+    // A little below, so that a floor of the scene's own stays on top.
+    const scene::LocalTransform local{
+        .translation = {middle.x, shot_.bounds.min.y - 5e-4 * size_m, middle.z}};
+    const auto material = static_cast<std::uint32_t>(shot_.scene.materials.size());
+    scene::Material& stone = shot_.scene.materials.emplace_back();
+    stone.name = "ground";
+    stone.base_color = {0.42F, 0.42F, 0.43F, 1.0F};
+    stone.roughness = 0.95F;
+    const auto side_m = static_cast<float>(4.0 * size_m);
+    ground_ = shot_.scene.create_node("ground", local);
+    registry.emplace<scene::MeshInstance>(
+        *ground_,
+        std::make_shared<const scene::Mesh>(scene::make_plane(side_m, side_m, 1, material)));
+    registry.emplace<scene::Receiver>(*ground_);
+}
+
 Status Stage::set_time(double time_s) { return pose_at(shot_, time_s); }
 
 double Stage::duration_s() const {
@@ -213,6 +249,20 @@ Result<std::optional<Probe>> Stage::probe(const Ray& ray) {
                                  .surfaces = queries_.surfaces_between(*light, point)});
     }
     return std::optional<Probe>(std::move(probe));
+}
+
+scene::Entity Stage::handle_node(scene::Entity entity) const {
+    const scene::Registry& registry = shot_.scene.registry;
+    const auto* skin = registry.try_get<scene::Skin>(entity);
+    if (skin == nullptr || skin->joints.empty()) return entity;
+    const auto* parent_of_mesh = registry.try_get<scene::Parent>(entity);
+    scene::Entity node = skin->joints.front();
+    while (const auto* parent = registry.try_get<scene::Parent>(node)) {
+        const bool shared = parent_of_mesh != nullptr && parent_of_mesh->value == parent->value;
+        if (shared || !registry.has<scene::LocalTransform>(parent->value)) break;
+        node = parent->value;
+    }
+    return registry.has<scene::LocalTransform>(node) ? node : entity;
 }
 
 scene::Bounds Stage::bounds_of(scene::Entity entity) const {

@@ -89,6 +89,11 @@ public:
     /// Where it is; of a directional light, a point towards which it stands, outside of the scene.
     [[nodiscard]] glm::dvec3 handle_of(const StageLight& light) const;
 
+    /// A floor below everything, for models that have nothing to cast a shadow on. Receives, and
+    /// casts none. Nothing happens where the scene is empty.
+    void show_ground(bool shown);
+    [[nodiscard]] bool has_ground() const { return ground_.has_value(); }
+
     /// Which of the scene's animations are played; places in Scene::animations.
     void play(std::vector<std::size_t> animations) { shot_.animations = std::move(animations); }
     [[nodiscard]] Status set_time(double time_s);
@@ -101,6 +106,9 @@ public:
 
     [[nodiscard]] std::optional<Hit> pick(const Ray& ray) { return picker_.pick(shot_.scene, ray); }
     [[nodiscard]] Result<std::optional<Probe>> probe(const Ray& ray);
+    /// What is moved where this is dragged: of a skinned mesh, whose own pose has no say, the node
+    /// above all its joints.
+    [[nodiscard]] scene::Entity handle_node(scene::Entity entity) const;
     [[nodiscard]] scene::Bounds bounds_of(scene::Entity entity) const;
     [[nodiscard]] std::string name_of(scene::Entity entity) const;
 
@@ -120,6 +128,8 @@ private:
     Picker picker_;
     gpu::Device* device_ = nullptr;
     std::optional<render::Renderer> renderer_;
+    std::optional<scene::Entity> ground_;
+    bool upload_due_ = false;                  // meshes came or went
     const shadows::DrawList* list_ = nullptr;  // the system's
     FrameFigures figures_;
 };

@@ -18,7 +18,8 @@ const CLI::App* add_view(CLI::App& app, ViewOptions& o) {
         "  T move, R turn, C or Esc camera, L next light; right or middle drag pans, the wheel "
         "zooms, F frames all;\n"
         "  dragging with Shift moves within a level instead of along the picture.\n"
-        "  Space plays, Left and Right step, Tab panel, 1 to 6 debug views, Q probe, P picture, B "
+        "  Space plays, Left and Right step, Tab panel, 1 to 6 debug views, Q probe, G ground, P "
+        "picture, B "
         "other backend,\n"
         "  F5 reads the file again, F11 full screen.\n\n"
         "  gnomon view engine.glb\n"
@@ -49,6 +50,8 @@ const CLI::App* add_view(CLI::App& app, ViewOptions& o) {
                      "Write what the window showed last here (PNG), panel included")
         ->check(not_empty())
         ->type_name("IMAGE.png");
+    view->add_flag("--ground", o.ground,
+                   "Begin with a floor below everything, for models without one");
     view->add_flag("!--no-panel", o.panel, "Begin without panel, hints and probe");
     view->add_flag("--quiet", o.render.quiet, "No notes");
     return view;

@@ -18,6 +18,7 @@ struct ViewOptions {
     std::filesystem::path script = {};      ///< input to play instead of reading mouse and keyboard
     std::filesystem::path screenshot = {};  ///< written when it ends
     bool panel = true;                      ///< begins with panel, hints and probe
+    bool ground = false;                    ///< a floor below the scene
     std::optional<std::uint32_t> frames = std::nullopt;  ///< ends after so many
 };
 

@@ -143,11 +143,13 @@ Status Viewer::load(const std::string& source) {
         options.receivers.reset();
         options.lights.clear();
     }
+    const bool ground = stage_.has_ground();
     auto stage = Stage::load(options);
     if (!stage) {
         state_.say(one_line(stage.error().message));
         return {};
     }
+    stage->show_ground(ground);
     if (const Status shown = show(std::move(*stage), source); !shown) return shown;
     if (!stage_.shot().scene.messages.empty()) {
         state_.say(one_line(stage_.shot().scene.messages.front()));
@@ -157,6 +159,7 @@ Status Viewer::load(const std::string& source) {
 
 Status Viewer::start() {
     size_px_ = window_.size_px();
+    stage_.show_ground(options_.ground);
     return show(std::move(stage_), options_.render.scene);
 }
 

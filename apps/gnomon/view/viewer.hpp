@@ -36,6 +36,7 @@ private:
         glm::dvec2 begin_px{0.0};
         bool moved = false;
         // Of an object:
+        scene::Entity node = {};
         scene::LocalTransform start_local = {};
         glm::dvec3 grabbed{0.0};
         glm::dvec3 pivot{0.0};
