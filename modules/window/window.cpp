@@ -187,6 +187,13 @@ glm::uvec2 Window::size_px() const {
     return {width, height};
 }
 
+float Window::content_scale() const {
+    float x = 1.0F;
+    float y = 1.0F;
+    if (state_->window != nullptr) glfwGetWindowContentScale(state_->window, &x, &y);
+    return x > 0.0F ? x : 1.0F;
+}
+
 gpu::Device& Window::device() {
     GNOMON_EXPECTS(state_->device.has_value());
     return *state_->device;

@@ -64,6 +64,9 @@ public:
     /// 0 x 0 while it is minimised.
     [[nodiscard]] glm::uvec2 size_px() const;
     [[nodiscard]] bool is_minimised() const;
+    /// By how much the desktop wants text larger than on a plain screen: 1, 1.5, 2. Changes when
+    /// the window goes to another monitor.
+    [[nodiscard]] float content_scale() const;
 
     /// Stays at its address; invalid after reopen() has failed.
     [[nodiscard]] gpu::Device& device();

@@ -108,7 +108,10 @@ void show_bounds(ImDrawList& list, const ViewState& state, const Stage& stage,
                          min.y + static_cast<float>(rect.height)};
         const glm::vec4 color =
             state.reasons ? color_of(draw.reason) : glm::vec4(0.4F, 0.8F, 1.0F, 1.0F);
-        if (state.reasons) list.AddRectFilled(min, max, packed(color, 0.10F));
+        // What stayed as it was is outlined alone, or it would cover what did not.
+        if (state.reasons && draw.reason != shadows::Reason::Unchanged) {
+            list.AddRectFilled(min, max, packed(color, 0.12F));
+        }
         list.AddRect(min, max, packed(color, 0.75F));
     }
 }

@@ -79,13 +79,13 @@ void show_times(const ViewState& state) {
     ui::draw_chart("shadow times", state.shadow_times, shadow_series, "ms, shadows on the CPU",
                    38.0F);
     ImGui::Spacing();
-    ui::draw_chart("frame times", state.frame_times, frame_series, "ms, frame", 38.0F);
+    ui::draw_chart("frame times", state.frame_times, frame_series, "ms, frame", 38.0F * state.unit);
 }
 
 void show_overlays(ViewState& state, Stage& stage) {
     if (!section("Show")) return;
     render::Overlays& show = stage.options().overlays;
-    if (!ImGui::BeginTable("overlays", 2)) return;
+    if (!ImGui::BeginTable("overlays", 2, ImGuiTableFlags_SizingStretchSame)) return;
     const auto box = [](const char* name, bool& on, const char* what) {
         ImGui::TableNextColumn();
         ImGui::Checkbox(name, &on);
@@ -154,7 +154,7 @@ void show_choices(Stage& stage) {
             o.near_caps = near_caps == 1 ? shadows::NearCaps::Averted : shadows::NearCaps::Facing;
         }
 
-        if (ImGui::BeginTable("savings", 2)) {
+        if (ImGui::BeginTable("savings", 2, ImGuiTableFlags_SizingStretchSame)) {
             const auto box = [&](const char* name, bool& on) {
                 ImGui::TableNextColumn();
                 changed |= ImGui::Checkbox(name, &on);
@@ -213,7 +213,7 @@ void show_lights(ViewState& state, Stage& stage) {
 Status show_animation(ViewState& state, Stage& stage) {
     const auto& animations = stage.shot().scene.animations;
     if (animations.empty() || !section("Animation")) return {};
-    if (ImGui::Button(state.playing ? "Pause" : "Play", {64.0F, 0.0F})) {
+    if (ImGui::Button(state.playing ? "Pause" : "Play", {64.0F * state.unit, 0.0F})) {
         state.playing = !state.playing;
     }
     ImGui::SameLine();
@@ -253,7 +253,7 @@ void show_counters(const ViewState& state, const Stage& stage) {
     if (!section("Counters", false)) return;
     const FrameFigures& f = stage.figures();
     const shadows::FrameStats& s = f.shadows;
-    if (ImGui::BeginTable("counters", 2)) {
+    if (ImGui::BeginTable("counters", 2, ImGuiTableFlags_SizingStretchProp)) {
         row("pairs drawn / of", fmt::format("{} / {}", s.zpass_pairs + s.zfail_pairs, s.pairs));
         row("depth-pass / depth-fail", fmt::format("{} / {}", s.zpass_pairs, s.zfail_pairs));
         row("found anew / kept", fmt::format("{} / {}", s.pairs_redetected, s.pairs_reused));
@@ -308,14 +308,16 @@ glm::vec4 color_of(shadows::Reason reason) {
 }
 
 double panel_width_px(const ViewState& state) {
-    return state.panel ? static_cast<double>(width_px + margin_px) : 0.0;
+    return state.panel ? static_cast<double>((width_px + margin_px) * state.unit) : 0.0;
 }
 
 Status show_panel(ViewState& state, Stage& stage) {
     if (!state.panel) return {};
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({margin_px, margin_px});
-    ImGui::SetNextWindowSizeConstraints({width_px, 60.0F}, {width_px, screen.y - 2.0F * margin_px});
+    const float margin = margin_px * state.unit;
+    const float width = width_px * state.unit;
+    ImGui::SetNextWindowPos({margin, margin});
+    ImGui::SetNextWindowSizeConstraints({width, margin}, {width, screen.y - 2.0F * margin});
     ImGui::Begin("gnomon", nullptr,
                  // A panel that is too high for the window scrolls by the wheel.
                  ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoTitleBar |

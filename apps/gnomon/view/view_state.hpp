@@ -39,6 +39,7 @@ struct ViewState {
     std::string adapter;
     bool can_switch = false;  ///< there are two backends
 
+    float unit = 1.0F;  ///< pixels of the panel's layout are so many of the screen's
     bool panel = true;
     bool help = true;
     bool probes = true;

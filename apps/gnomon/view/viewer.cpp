@@ -21,6 +21,8 @@ using Clock = std::chrono::steady_clock;
 
 /// Of a script's frames, so that what it plays is the same on every machine.
 constexpr double scripted_frame_s = 1.0 / 60.0;
+/// On a plain screen.
+constexpr float font_px = 15.0F;
 /// How long to sleep where nothing happens and nothing plays.
 constexpr double idle_wait_s = 0.5;
 constexpr std::array<std::string_view, 3> commands{"size", "backend", "screenshot"};
@@ -70,7 +72,8 @@ Viewer::Viewer(const ViewOptions& options, window::Window window, Stage stage,
       window_(std::move(window)),
       stage_(std::move(stage)),
       script_(std::move(script)),
-      ui_({.font_px = 15.0F}) {
+      ui_({.font_px = font_px * window_.content_scale()}) {
+    state_.unit = window_.content_scale();
     state_.can_switch = window::backends().size() > 1;
     state_.panel = state_.help = state_.probes = options.panel;
 }
