@@ -173,7 +173,7 @@ TEST_P(ViewOn, every_key_does_something_and_none_harm) {
     for (const char* key : {"1", "2", "3", "4", "5",     "6",    "Tab",   "F1", "Q", "T",
                             "R", "C", "L", "F", "Space", "Left", "Right", "F5", "P", "Tab"}) {
         script += std::to_string(frame) + " tap " + key + "\n";
-        frame += 2;
+        ++frame;
     }
     run_well(on(scripted("builtin:walk", script, {"--screenshot", "end.png"})));
     EXPECT_THAT(files(), UnorderedElementsAre("run.input", "end.png", "gnomon-walk-1.png"));

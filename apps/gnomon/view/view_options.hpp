@@ -25,6 +25,6 @@ struct ViewOptions {
 [[nodiscard]] const CLI::App* add_view(CLI::App& app, ViewOptions& options);
 
 /// Opens the window; returns when it was closed.
-[[nodiscard]] Status run_view(const ViewOptions& options);
+[[nodiscard]] Status run_view(const ViewOptions& asked);
 
 }  // namespace gnomon::cli
