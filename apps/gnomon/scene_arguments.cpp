@@ -98,7 +98,7 @@ void add_scene_options(CLI::App& app, RenderOptions& o) {
     app.add_option_function<std::string>(
            "--without", parsed_into(o.fill, parse_without),
            "Savings of fill to do without, for measurements: view-cull,receiver-cull,umbra-"
-           "cull,clamp,scissor,depth-bounds; all")
+           "cull,clamp,slabs,scissor,depth-bounds; all")
         ->type_name("LIST");
     app.add_option_function<std::string>(
            "--show", parsed_into(o.overlays, parse_overlays),
