@@ -197,8 +197,6 @@ Result<shadows::FillOptions> parse_without(std::string_view text) {
             fill.cull_by_umbra = false;
         } else if (part == "clamp") {
             fill.clamp = false;
-        } else if (part == "slabs") {
-            fill.slabs = false;
         } else if (part == "scissor") {
             fill.scissor = false;
         } else if (part == "depth-bounds") {
@@ -210,7 +208,7 @@ Result<shadows::FillOptions> parse_without(std::string_view text) {
                 ErrorCode::InvalidInput,
                 fmt::format(
                     "--without: \"{}\" is none of view-cull, receiver-cull, umbra-cull, clamp, "
-                    "slabs, scissor, depth-bounds, all.",
+                    "scissor, depth-bounds, all.",
                     part));
         }
     }

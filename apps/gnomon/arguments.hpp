@@ -51,7 +51,7 @@ struct Motion {
 [[nodiscard]] Result<LightArgument> parse_light(std::string_view text);
 [[nodiscard]] Result<Motion> parse_motion(std::string_view text);
 [[nodiscard]] Result<render::Overlays> parse_overlays(std::string_view text);
-/// What is named is left out: view-cull, receiver-cull, umbra-cull, clamp, slabs, scissor,
+/// What is named is left out: view-cull, receiver-cull, umbra-cull, clamp, scissor,
 /// depth-bounds, or all of them.
 [[nodiscard]] Result<shadows::FillOptions> parse_without(std::string_view text);
 

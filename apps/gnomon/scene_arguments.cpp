@@ -98,8 +98,12 @@ void add_scene_options(CLI::App& app, RenderOptions& o) {
     app.add_option_function<std::string>(
            "--without", parsed_into(o.fill, parse_without),
            "Savings of fill to do without, for measurements: view-cull,receiver-cull,umbra-"
-           "cull,clamp,slabs,scissor,depth-bounds; all")
+           "cull,clamp,scissor,depth-bounds; all")
         ->type_name("LIST");
+    app.add_flag_callback(
+        "--slabs", [&o] { o.fill.slabs = true; },
+        "Leave volumes out where the light meets no receiver on its way as well: fewer fragments, "
+        "more draws");
     app.add_option_function<std::string>(
            "--show", parsed_into(o.overlays, parse_overlays),
            "Debug views: volumes,silhouettes,caps,wireframe,count,fill")

@@ -24,9 +24,9 @@ enum class Receivers : std::uint8_t {
     Submitted,  ///< every surface in the depth buffer lies within a receiver that is submitted
 };
 
-/// What is left out of volumes because no pixel can tell. All on: each is exact on every surface
-/// of a receiver that the light reaches; where no surface is (the depth buffer is 0), masks may
-/// differ. `Receivers::Submitted` is needed for what says so.
+/// What is left out of volumes because no pixel can tell. All are exact on every surface of a
+/// receiver that the light reaches; where no surface is (the depth buffer is 0), masks may differ.
+/// `Receivers::Submitted` is needed for what says so. On are those that pay as a rule.
 struct FillOptions {
     /// Volumes that cannot be seen are not drawn, and of casters that move not made.
     bool cull_by_view = true;
@@ -38,8 +38,9 @@ struct FillOptions {
     /// Where along its way the light meets no receiver, volumes are left out as well
     /// (VolumeDraw::slabs): the near end where none comes first, and what lies between two, where
     /// that saves more than the caps at the cuts cost, as far as projected bounds can tell. Needs
-    /// `clamp`. After the same paper.
-    bool slabs = true;
+    /// `clamp`. After the same paper. Off: a fifth fewer fragments in some scenes, but more and
+    /// smaller draws, which pay only where fragments are dear (docs/performance.md).
+    bool slabs = false;
     /// VolumeDraw::bounds is what the volume can change of the picture, else all of it.
     bool scissor = true;
     /// VolumeDraw::depth is where the volume can change the count of what is stored, else all of

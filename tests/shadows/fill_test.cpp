@@ -239,11 +239,11 @@ TEST_F(Fill, WhatIsSeenIsThatOfASystemThatSawNothingBefore) {
             for (const auto& [key, receiver] : receivers) frame.receiver(receiver);
             return std::move(frame).finish(view);
         };
-        ShadowSystem system = make({});
+        ShadowSystem system = make({.slabs = run % 2 == 1});
         for (int step = 0; step < 60; ++step) {
             SCOPED_TRACE(testing::Message() << "run " << run << ", step " << step);
             const DrawList& list = submit(system);
-            ShadowSystem fresh = make({});
+            ShadowSystem fresh = make({.slabs = run % 2 == 1});
             const DrawList& expected = submit(fresh);
             const auto now = seen(list);
             const auto then = seen(expected);

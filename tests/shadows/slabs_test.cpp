@@ -118,7 +118,7 @@ struct Cut {
         ReceiverTree tree;
         tree.build(receivers);
         screen.emplace(view);
-        const FillTerms terms{{}, &tree, &*screen};
+        const FillTerms terms{{.slabs = true}, &tree, &*screen};
         const ShadowHull hull(caster, light);
         reach = terms.reach(hull);
         draw.world_from_local = caster.world_from_local;

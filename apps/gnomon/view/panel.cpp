@@ -163,6 +163,7 @@ void show_choices(Stage& stage) {
             box("receiver cull", o.fill.cull_by_receivers);
             box("umbra cull", o.fill.cull_by_umbra);
             box("clamp", o.fill.clamp);
+            box("slabs", o.fill.slabs);
             box("scissor", o.fill.scissor);
             box("depth bounds", o.fill.depth_bounds);
             ImGui::EndTable();
