@@ -37,7 +37,7 @@ Status first_shadow() {
                              shadows::infinite_perspective(0.7, 640.0 / 360.0, 0.05)};
 
     // What draws: an OpenGL context without a window, a device on it, a renderer on that.
-    auto context = gl::create_osmesa_context();
+    auto context = gl::create_headless_context();
     if (!context) return forward_error(context);
     auto backend = gl::create_backend(std::move(*context));
     if (!backend) return forward_error(backend);
