@@ -16,7 +16,7 @@ namespace gnomon::shadows::internal {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float float_infinity = std::numeric_limits<float>::infinity();
 constexpr float largest_finite = std::numeric_limits<float>::max();
 
 float filter_from(std::size_t first, const FacePlanes& planes, const FilterLight& light,
@@ -51,7 +51,7 @@ FilterLight filter_light(const FacePlanes& planes, LightLocal light) {
 
 float filter_scalar(const FacePlanes& planes, const FilterLight& light,
                     std::span<std::int8_t> sides) {
-    return filter_from(0, planes, light, sides, infinity);
+    return filter_from(0, planes, light, sides, float_infinity);
 }
 
 // GCC 12 and clang have vectors as types of the language; their shuffles below count bytes from the
@@ -89,7 +89,7 @@ Bytes narrow(Words a, Words b, Words c, Words d) {
 
 float filter_simd(const FacePlanes& planes, const FilterLight& light,
                   std::span<std::int8_t> sides) {
-    const Floats unknown = Floats{} + infinity;
+    const Floats unknown = Floats{} + float_infinity;
     Floats nearest = unknown;
     std::size_t face = 0;
     for (; face + step <= sides.size(); face += step) {
@@ -111,7 +111,7 @@ float filter_simd(const FacePlanes& planes, const FilterLight& light,
         const Bytes bytes = narrow(side[0], side[1], side[2], side[3]);
         std::memcpy(sides.data() + face, &bytes, sizeof bytes);
     }
-    float result = infinity;
+    float result = float_infinity;
     for (std::size_t i = 0; i < lanes; ++i) result = std::min(result, nearest[i]);
     return filter_from(face, planes, light, sides, result);
 }
@@ -139,7 +139,7 @@ void filter_blocks_plain(const FacePlanes& planes, const FilterLight& light,
                         planes.normal_z[f] * light.towards.z + planes.offset[f] * light.w;
             certain[i] = std::abs(values[i]) - planes.error[f] * light.reach;
         }
-        FilteredBlock block{0, 0, infinity};
+        FilteredBlock block{0, 0, float_infinity};
         for (std::size_t i = 0; i < size; ++i) {
             const bool decided = certain[i] > 0.0F && certain[i] <= largest_finite;
             const bool facing = decided && values[i] > 0.0F;
@@ -166,7 +166,7 @@ namespace {
     const __m256 sign = _mm256_set1_ps(-0.0F);
     const __m256 zero = _mm256_setzero_ps();
     const __m256 most = _mm256_set1_ps(largest_finite);
-    const __m256 unknown = _mm256_set1_ps(infinity);
+    const __m256 unknown = _mm256_set1_ps(float_infinity);
     const float* nx = planes.normal_x.data() + first_block * 16;
     const float* ny = planes.normal_y.data() + first_block * 16;
     const float* nz = planes.normal_z.data() + first_block * 16;

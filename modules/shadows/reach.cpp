@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "internal/finite.hpp"
 #include "internal/outline.hpp"
@@ -12,8 +11,6 @@
 namespace gnomon::shadows::internal {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // How far in front of the light a caster begins along a normal, as a part of its size: less, and
 // far vertices would lose their places to rounding.

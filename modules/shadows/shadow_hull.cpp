@@ -3,15 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "internal/finite.hpp"
 
 namespace gnomon::shadows::internal {
-
-namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-}
 
 Aabb Aabb::nothing() { return {glm::dvec3(infinity), glm::dvec3(-infinity)}; }
 

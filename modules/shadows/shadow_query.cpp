@@ -19,9 +19,9 @@ namespace gnomon::shadows {
 using internal::Box;
 using internal::CasterSpace;
 using internal::Corners;
-using internal::Interval;
 using internal::is_finite;
 using internal::LightFan;
+using internal::SegmentPart;
 using internal::Sight;
 
 namespace {
@@ -50,7 +50,7 @@ bool each_face_crossed(const CasterSpace& space, const Sight& sight, Visit&& vis
 
 // Appends the shadows that one caster casts on a segment, both in its own space.
 void add_shadows(const CasterSpace& space, const LightFan& fan, const glm::dvec4& light,
-                 std::vector<Interval>& shadows) {
+                 std::vector<SegmentPart>& shadows) {
     const auto enters = [&](const Box<float>& box) { return fan.enters(space.box(box)); };
     space.faces().tree().walk(enters, [&](std::uint32_t face) {
         const Corners corners = space.corners(space.faces().triangles()[face]);
@@ -74,9 +74,9 @@ void add_passages(const CasterSpace& space, const glm::dvec3& from, const glm::d
 }
 
 // Appends the ends of the intervals' union.
-void add_ends(std::vector<Interval>& intervals, std::vector<double>& at) {
+void add_ends(std::vector<SegmentPart>& intervals, std::vector<double>& at) {
     std::sort(intervals.begin(), intervals.end(),
-              [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+              [](const SegmentPart& a, const SegmentPart& b) { return a.begin < b.begin; });
     for (std::size_t i = 0; i < intervals.size();) {
         double end = intervals[i].end;
         at.push_back(intervals[i].begin);
@@ -340,7 +340,7 @@ void ShadowQueries::State::borders(const Light& light, const glm::dvec3& from, c
                                    const QueryOptions& options, std::vector<double>& at) const {
     at = {0.0, 1.0};
     if (!tree.empty() && is_finite(light.position_world)) {
-        std::vector<Interval> shadows;
+        std::vector<SegmentPart> shadows;
         const double beside = std::max(slack(light, from), slack(light, to));
         const LightFan fan(from, to, light.position_world, beside);
         each_caster(

@@ -121,7 +121,7 @@ TEST(LightFan, ShadowsOfNeighboursMeetInEqualBits) {
         const glm::dvec3 across = 9.0 * glm::cross(l / 6.0, random.unit_vector());
         const internal::LightFan fan(-l - across, -l + across,
                                      glm::dvec4(l, directional ? 0.0 : 1.0));
-        std::vector<internal::Interval> shadows;
+        std::vector<internal::SegmentPart> shadows;
         for (const auto& [a, b, c] : mesh->faces()) {
             const auto p = mesh->positions();
             const auto shadow =
@@ -129,7 +129,7 @@ TEST(LightFan, ShadowsOfNeighboursMeetInEqualBits) {
             if (shadow && shadow->begin < shadow->end) shadows.push_back(*shadow);
         }
         // Every end is an end of another shadow: that of the neighbour behind the edge.
-        for (const internal::Interval& one : shadows) {
+        for (const internal::SegmentPart& one : shadows) {
             for (const double t : {one.begin, one.end}) {
                 if (t < 1e-12 || t > 1.0 - 1e-12) continue;  // where the segment ends
                 const auto others = std::count_if(

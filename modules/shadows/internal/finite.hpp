@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether a vector's components are all numbers and none infinite. Comparisons alone would let
-// not-a-number through.
+// Infinity; and whether a vector's components are all numbers and none infinite. Comparisons alone
+// would let not-a-number through.
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <glm/glm.hpp>
 
 namespace gnomon::shadows::internal {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <glm::length_t size, class T>
 [[nodiscard]] bool is_finite(const glm::vec<size, T>& v) {

@@ -78,7 +78,7 @@ LightFan::Place LightFan::place_on_edge(glm::dvec3 p, glm::dvec3 q) const {
             cross2(w - from_, from_to_light_, u_, v_) / area_};
 }
 
-std::optional<Interval> LightFan::shadow_of(const std::array<glm::dvec3, 3>& face) const {
+std::optional<SegmentPart> LightFan::shadow_of(const std::array<glm::dvec3, 3>& face) const {
     std::array<int, 3> above;
     for (std::size_t i = 0; i < 3; ++i) above[i] = side_of(face[i]);
     std::array<Place, 2> ends;
@@ -117,7 +117,7 @@ std::optional<Interval> LightFan::shadow_of(const std::array<glm::dvec3, 3>& fac
     const double a = parameter_at(first);
     const double b = parameter_at(last);
     if (!std::isfinite(a) || !std::isfinite(b)) return std::nullopt;
-    return Interval{std::clamp(std::min(a, b), 0.0, 1.0), std::clamp(std::max(a, b), 0.0, 1.0)};
+    return SegmentPart{std::clamp(std::min(a, b), 0.0, 1.0), std::clamp(std::max(a, b), 0.0, 1.0)};
 }
 
 }  // namespace gnomon::shadows::internal

@@ -14,7 +14,7 @@
 namespace gnomon::shadows::internal {
 
 /// Parameters along a segment, from 0 to 1.
-struct Interval {
+struct SegmentPart {
     double begin = 0.0;
     double end = 0.0;
 };
@@ -35,7 +35,7 @@ public:
     /// where there is none. Faces that share an edge get the very same parameter from it, so that
     /// their shadows leave no gap. Not for a flat fan, nor for a face
     /// whose plane contains the light.
-    [[nodiscard]] std::optional<Interval> shadow_of(const std::array<glm::dvec3, 3>& face) const;
+    [[nodiscard]] std::optional<SegmentPart> shadow_of(const std::array<glm::dvec3, 3>& face) const;
 
 private:
     /// How far a place in the fan is towards the light, and its weights of `from` and `to`.
