@@ -122,7 +122,7 @@ TEST(Reach, NoShadowedPointOfAReceiverIsBeyondThePlaneOrOutsideTheScissor) {
         tree.build(boxes);
         const View view = random_view(random);
         const Screen screen(view);
-        const FillTerms terms{{}, &tree, &screen};
+        const FillTerms terms{{.slabs = true}, &tree, &screen};
         const ShadowHull hull(caster, light);
         const Reach reach = terms.reach(hull);
         const double plane = plane_distance(reach, screen.eye());
