@@ -17,6 +17,7 @@ namespace {
 constexpr double farthest_m = 200.0;
 constexpr std::size_t most_things = 200;
 constexpr std::size_t most_points = 64;
+constexpr double least_step_m = 0.05;  // of paths and walls
 constexpr std::uintmax_t most_bytes = 1U << 20U;
 
 glm::vec3 color_of(const JsonPlace& place) { return glm::vec3(place.vec3(0.0, 4.0)); }
@@ -40,18 +41,27 @@ void for_entries(const JsonPlace& in, const char* name, const Read& read) {
     for (const JsonPlace& entry : list->entries(0, most_things)) read(entry);
 }
 
-/// A closed path: two points at least, no two neighbours at one place.
+/// A closed path: two points at least, and neighbours, the last and the first as well, so far apart
+/// that what goes along it has a direction.
 std::vector<glm::dvec2> path_of(const JsonPlace& in) {
     const std::vector<JsonPlace> entries = in.entries(2, most_points);
     std::vector<glm::dvec2> path;
     for (const JsonPlace& entry : entries) {
         path.push_back(plan_place(entry));
-        if (path.size() > 1 && path.back() == path[path.size() - 2]) {
-            entry.refuse("is where the entry before it is; a path must go on");
+        if (path.size() < 2) continue;
+        const double step_m = glm::length(path.back() - path[path.size() - 2]);
+        if (!(step_m >= least_step_m)) {
+            entry.refuse(
+                fmt::format("is {} m from the entry before it; a path must go on by {} m at least",
+                            step_m, least_step_m));
         }
     }
-    if (path.front() == path.back()) {
-        entries.back().refuse("is where the path began; it closes by itself");
+    const double step_m = glm::length(path.front() - path.back());
+    if (!(step_m >= least_step_m)) {
+        entries.back().refuse(fmt::format(
+            "is {} m from where the path began, but must be {} m or more from there: a path closes "
+            "by itself",
+            step_m, least_step_m));
     }
     return path;
 }
@@ -84,7 +94,8 @@ void read_wall(const JsonPlace& in, const glm::vec3& color, std::vector<Block>& 
     const glm::dvec2 from = plan_place(in.member("from"));
     const glm::dvec2 to = plan_place(in.member("to"));
     const double length = glm::length(to - from);
-    if (!(length >= 0.05)) in.member("to").refuse("is where the wall begins; it has no length");
+    if (!(length >= least_step_m))
+        in.member("to").refuse("is where the wall begins; it has no length");
     double height = 2.4;
     double thickness = 0.35;
     Block wall;
@@ -151,10 +162,20 @@ void read_brightness(const JsonPlace& in, Light& light) {
     read_color(in, "color", light.color);
 }
 
+/// A place in space, `least_m` or more above the ground: what is there stands on something.
+glm::dvec3 place_above(const JsonPlace& place, double least_m) {
+    const glm::dvec3 at = place.vec3(-farthest_m, farthest_m);
+    if (at.y < least_m) {
+        place.refuse(fmt::format("is {} m above the ground, but must be {} m or more above it",
+                                 at.y, least_m));
+    }
+    return at;
+}
+
 Lamp read_lamp(const JsonPlace& in) {
     in.only({"at", "candela", "range_m", "color"});
     Lamp lamp;
-    lamp.at = in.member("at").vec3(-farthest_m, farthest_m);
+    lamp.at = place_above(in.member("at"), 0.5);
     read_brightness(in, lamp);
     return lamp;
 }
@@ -162,11 +183,7 @@ Lamp read_lamp(const JsonPlace& in) {
 Searchlight read_searchlight(const JsonPlace& in) {
     in.only({"at", "path", "period_s", "candela", "range_m", "cone_deg", "color"});
     Searchlight light;
-    light.at = in.member("at").vec3(-farthest_m, farthest_m);
-    if (light.at.y < 2.0) {
-        in.member("at").refuse(
-            fmt::format("is {} m above the ground, but must be 2 m or more above it", light.at.y));
-    }
+    light.at = place_above(in.member("at"), 2.0);
     light.path = path_of(in.member("path"));
     read_number(in, "period_s", 2.0, 600.0, light.period_s);
     read_angle(in, "cone_deg", 1.0, 45.0, light.cone_rad);
@@ -273,7 +290,7 @@ Level level_of(const JsonPlace& in) {
         Column column;
         column.at = plan_place(entry.member("at"));
         read_number(entry, "radius_m", 0.05, 10.0, column.radius_m);
-        read_number(entry, "height_m", 0.1, 20.0, column.height_m);
+        read_number(entry, "height_m", 0.5, 20.0, column.height_m);
         level.columns.push_back(column);
     });
     for_entries(in, "lamps",

@@ -26,10 +26,12 @@ Player moved(const Player& player, const Input& input, std::span<const Obstacle>
     glm::dvec2 velocity =
         player.velocity_m_s + (stick * top_m_s - player.velocity_m_s) * (tick_s / settle_s);
     if (tilt == 0.0 && glm::length(velocity) < 0.02) velocity = glm::dvec2(0.0);
-    const glm::dvec2 wanted =
-        glm::clamp(player.at + velocity * tick_s, -ground_half_m + Player::radius_m,
-                   ground_half_m - Player::radius_m);
-    next.at = pushed_out(wanted, Player::radius_m, obstacles);
+    const auto on_ground = [&](const glm::dvec2& at) {
+        return glm::clamp(at, -ground_half_m + Player::radius_m, ground_half_m - Player::radius_m);
+    };
+    // What stands at the border must not push the figure over it.
+    next.at = on_ground(
+        pushed_out(on_ground(player.at + velocity * tick_s), Player::radius_m, obstacles));
     // Against a wall the figure does not run on the spot.
     next.velocity_m_s = (next.at - player.at) / tick_s;
     if (next.speed_m_s() > Player::run_m_s) next.velocity_m_s = velocity;

@@ -40,7 +40,8 @@ struct Player {
     [[nodiscard]] double speed_m_s() const { return glm::length(velocity_m_s); }
 };
 
-/// One tick. `ground_half_m`: where the ground ends.
+/// One tick. `ground_half_m`: where the ground ends; the figure stays on it, in an obstacle if
+/// there is no other place.
 [[nodiscard]] Player moved(const Player& player, const Input& input,
                            std::span<const Obstacle> obstacles, const glm::dvec2& ground_half_m);
 

@@ -20,7 +20,8 @@ void add_part(scene::Mesh& whole, const scene::Mesh& part, const glm::dmat4& who
 [[nodiscard]] scene::Mesh make_spoked_wheel(double radius_m, std::uint32_t spokes,
                                             std::uint32_t material);
 
-/// An open crate: a box of planks and corner posts, about its centre.
+/// A crate: a box with bars along its edges, about its centre. No side may be 0.08 m or less: bars
+/// are 0.04 m thick at least, and those along an edge lie between those across it.
 [[nodiscard]] scene::Mesh make_crate(const glm::dvec3& size_m, std::uint32_t material);
 
 }  // namespace gnomon::game

@@ -23,6 +23,7 @@ namespace {
 constexpr double border_m = 24.0;   // of ground around a level
 constexpr double buried_m = 0.03;   // by which things stand in the ground
 constexpr double headroom_m = 1.9;  // what begins above it is no obstacle
+constexpr double least_crate_m = 0.2;
 constexpr std::size_t ring_segments = 24;
 
 enum class Part : std::uint8_t { Solid, Glow };  // what glows is drawn and casts nothing
@@ -131,7 +132,9 @@ private:
             const scene::LocalTransform local{
                 .translation = {block.at.x, block.base_m + size.y * 0.5 - sunk, block.at.y},
                 .rotation = in_plan(block.turn_rad)};
-            const bool is_crate = !block.is_wall && block.size_m.y <= 3.0;
+            // Narrower than that, the bars of a crate would meet from both sides.
+            const bool is_crate = !block.is_wall && block.size_m.y <= 3.0 &&
+                                  std::min(block.size_m.x, block.size_m.z) >= least_crate_m;
             add(fmt::format("block {}", ++number),
                 tiled(is_crate ? make_crate(size, material)
                                : scene::make_box(glm::vec3(size), material)),

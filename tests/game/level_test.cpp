@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "assets.hpp"
+#include "world.hpp"
 
 namespace gnomon::game {
 namespace {
@@ -94,9 +98,25 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"path_of_one", with(R"("searchlights": [{"at": [0, 5, 0], "path": [[1, 1]]}])"),
             "searchlights[0].path is an array of 1, but must be an array of 2 to 64 entries."},
         Bad{"path_that_stays", with(R"("guards": [{"path": [[0, 0], [1, 0], [1, 0], [2, 2]]}])"),
-            "guards[0].path[2] is where the entry before it is; a path must go on."},
+            "guards[0].path[2] is 0 m from the entry before it; a path must go on by 0.05 m at "
+            "least."},
+        // Its length is a number, but no direction can be made of it.
+        Bad{"path_that_hardly_moves",
+            with(R"("guards": [{"path": [[0, 0], [1e-200, 0], [2, 2]]}])"),
+            "guards[0].path[1] is 0 m from the entry before it; a path must go on by 0.05 m at "
+            "least."},
+        Bad{"path_of_small_steps",
+            with(R"("searchlights": [{"at": [0, 5, 0], "path": [[0, 0], [0, 0.03125], [2, 2]]}])"),
+            "searchlights[0].path[1] is 0.03125 m from the entry before it; a path must go on by "
+            "0.05 m at least."},
         Bad{"path_closed_twice", with(R"("guards": [{"path": [[0, 0], [1, 0], [0, 0]]}])"),
-            "guards[0].path[2] is where the path began; it closes by itself."},
+            "guards[0].path[2] is 0 m from where the path began, but must be 0.05 m or more from "
+            "there: a "
+            "path closes by itself."},
+        Bad{"low_lamp", with(R"("lamps": [{"at": [0, -0.5, 0]}])"),
+            "lamps[0].at is -0.5 m above the ground, but must be 0.5 m or more above it."},
+        Bad{"low_column", with(R"("columns": [{"at": [0, 0], "height_m": 0.2}])"),
+            "columns[0].height_m is 0.2, but must be a number from 0.5 to 20."},
         Bad{"low_searchlight",
             with(R"("searchlights": [{"at": [0, 1, 0], "path": [[1, 1], [2, 2]]}])"),
             "searchlights[0].at is 1 m above the ground, but must be 2 m or more above it."},
@@ -113,6 +133,113 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"long_name", R"({"format": "gnomon-level 1", "name": ""})",
             "name is \"\", but must be a text of 1 to 60 bytes."}),
     [](const auto& row) { return row.param.name; });
+
+struct Extreme {
+    const char* name;
+    std::string members;
+};
+void PrintTo(const Extreme& extreme, std::ostream* out) { *out << extreme.name; }
+
+class ExtremeLevels : public testing::TestWithParam<Extreme> {};
+
+void expect_finite(Stage& stage) {
+    const scene::Registry& registry = stage.scene().registry;
+    std::size_t broken = 0;
+    const auto count = [&](const auto& vector) {
+        for (glm::length_t i = 0; i < vector.length(); ++i)
+            broken += std::isfinite(vector[i]) ? 0 : 1;
+    };
+    registry.each<scene::WorldTransform>([&](scene::Entity, const scene::WorldTransform& world) {
+        for (glm::length_t i = 0; i < 4; ++i) count(world.world_from_local[i]);
+    });
+    registry.each<scene::MeshInstance>([&](scene::Entity, const scene::MeshInstance& instance) {
+        for (const glm::vec3& position : instance.mesh->positions) count(position);
+        for (const glm::vec3& normal : instance.mesh->normals) count(normal);
+    });
+    EXPECT_EQ(broken, 0U) << "numbers of poses and meshes";
+}
+
+// Whatever a level file may say can be played.
+TEST_P(ExtremeLevels, are_staged_and_played) {
+    const auto level = read_level(with(GetParam().members), "extreme.json");
+    ASSERT_TRUE(level) << level.error().message;
+    auto stage = Stage::create(*level);
+    ASSERT_TRUE(stage) << stage.error().message;
+    expect_finite(*stage);
+    auto world = World::create(*level);
+    ASSERT_TRUE(world) << world.error().message;
+    for (int i = 0; i < 8; ++i) {
+        const Status done = world->tick({.east = 127, .south = -127, .run = true});
+        ASSERT_TRUE(done) << done.error().message;
+    }
+    expect_finite(world->stage());
+    EXPECT_TRUE(std::isfinite(world->reading().level));
+    const glm::dvec2 beyond = glm::abs(world->player().at) - level->size_m * 0.5;
+    EXPECT_LE(std::max(beyond.x, beyond.y), 0.0) << "it stays on the ground";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, ExtremeLevels,
+    testing::Values(
+        Extreme{"nothing", ""},
+        Extreme{"small_blocks",
+                R"("blocks": [{"at": [0, 0], "size_m": [0.05, 0.05, 0.05]},
+                              {"at": [1, 0], "size_m": [0.08, 1, 0.08], "base_m": 20},
+                              {"at": [2, 0], "size_m": [0.2, 0.05, 0.2], "base_m": 1},
+                              {"at": [-2, 0], "size_m": [0.05, 3, 60]}])"},
+        Extreme{"large_blocks", R"("blocks": [{"at": [0, 0], "size_m": [60, 60, 60]}])"},
+        Extreme{"short_wall", R"("walls": [{"from": [0, 0], "to": [0, 0.05], "height_m": 0.1,
+                                            "thickness_m": 0.05}])"},
+        Extreme{"long_wall", R"("walls": [{"from": [-200, -200], "to": [200, 200], "height_m": 20,
+                                           "thickness_m": 10, "base_m": 20}])"},
+        Extreme{"columns", R"("columns": [{"at": [0, 0], "radius_m": 0.05, "height_m": 0.5},
+                                          {"at": [2, 2], "radius_m": 10, "height_m": 20}])"},
+        Extreme{"lamps", R"("lamps": [{"at": [0, 0.5, 0], "range_m": 0.5, "candela": 0},
+                                      {"at": [-200, 200, 200], "range_m": 200, "candela": 1e5}])"},
+        Extreme{"searchlight_above_its_path",
+                R"("searchlights": [{"at": [0, 2, 0], "path": [[0, 0], [0.05, 0]], "period_s": 2,
+                                     "cone_deg": 1},
+                                    {"at": [3, 200, 3], "path": [[-200, 200], [200, -200]],
+                                     "period_s": 600, "cone_deg": 45}])"},
+        Extreme{"guards",
+                R"("guards": [{"path": [[2, 2], [2.0625, 2]], "speed_m_s": 4, "pause_s": 0,
+                                         "cone_deg": 5},
+                                        {"path": [[2, -2], [2, -2.0625]], "speed_m_s": 0.1,
+                                         "pause_s": 60, "hearing_m": 50, "cone_deg": 80},
+                                        {"path": [[-200, 200], [200, -200]]}])"},
+        Extreme{"doors", R"("doors": [{"hinge": [0, 0], "width_m": 0.5, "height_m": 0.5,
+                                       "open_deg": -170},
+                                      {"hinge": [-2, 0], "width_m": 5, "height_m": 6,
+                                       "turn_deg": 360, "open_deg": 170}])"},
+        Extreme{"small_crane",
+                R"("cranes": [{"at": [0, 0], "height_m": 4, "arm_m": 1, "period_s": 4,
+                                              "load_m": [0.2, 0.2, 0.2], "load_base_m": 2}])"},
+        Extreme{"large_crane", R"("cranes": [{"at": [0, 0], "height_m": 40, "arm_m": 40,
+                                              "swing_deg": [-720, 720], "period_s": 600,
+                                              "load_m": [20, 20, 20], "load_base_m": 19.9}])"},
+        Extreme{"wheels", R"("wheels": [{"at": [0, 0], "radius_m": 0.5, "spokes": 2, "period_s": 2},
+                                        {"at": [1, 1], "radius_m": 20, "spokes": 64,
+                                         "period_s": 600}])"},
+        Extreme{"low_sun", R"("sun": {"from_deg": [-360, 3], "to_deg": [360, 3], "period_s": 5,
+                                      "lux": 1e5})"},
+        Extreme{"high_sun", R"("sun": {"from_deg": [0, 90], "lux": 0})"},
+        Extreme{"patience", R"("seen_lux": 0.01, "caught_after_s": 0.1)"}),
+    [](const auto& row) { return row.param.name; });
+
+TEST(Stage, what_is_too_narrow_for_bars_is_a_plain_box) {
+    Level level;
+    level.blocks.push_back({.at = {0.0, 0.0}, .size_m = {0.08, 1.0, 0.08}});
+    level.blocks.push_back({.at = {2.0, 0.0}, .size_m = {1.0, 1.0, 1.0}});
+    auto stage = Stage::create(level);
+    ASSERT_TRUE(stage) << stage.error().message;
+    expect_finite(*stage);
+    std::size_t crates = 0;
+    stage->scene().registry.each<scene::MeshInstance>(
+        [&](scene::Entity, const scene::MeshInstance& instance) {
+            crates += instance.mesh->name == "crate" ? 1U : 0U;
+        });
+    EXPECT_EQ(crates, 1U);
+}
 
 TEST(Level, places_that_somebody_stands_at_lie_on_the_ground) {
     const auto level = read_level(

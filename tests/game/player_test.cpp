@@ -84,5 +84,14 @@ TEST(Player, stops_at_walls_and_at_the_end_of_the_ground) {
     EXPECT_NEAR(after({}, {.south = 127, .run = true}, 600).at.y, 10.0 - Player::radius_m, 1e-9);
 }
 
+TEST(Player, is_not_pushed_over_the_end_of_the_ground) {
+    // Reaches from within to beyond the border: the nearest way out is over it.
+    const std::vector<Obstacle> crate{{.at = {9.5, 0.0}, .half_m = {0.7, 3.0}}};
+    const Player pushed = after({.at = {9.65, 0.0}}, {}, 30, crate);
+    EXPECT_LE(pushed.at.x, 10.0 - Player::radius_m);
+    EXPECT_NEAR(after({.at = {5.0, 0.0}}, {.east = 127}, 300, crate).at.x, 8.5, 1e-9)
+        << "from within it is as any other";
+}
+
 }  // namespace
 }  // namespace gnomon::game
