@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "recording.hpp"
 
 namespace gnomon::game {
 
@@ -26,11 +30,18 @@ std::filesystem::path assets_folder() {
     return program.parent_path().parent_path() / "share" / "gnomon" / "game";
 }
 
-std::vector<std::string> level_names(const std::filesystem::path& assets) {
+Result<std::vector<std::string>> level_names(const std::filesystem::path& assets) {
+    const std::filesystem::path folder = assets / "levels";
     std::vector<std::string> names;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(assets / "levels", error)) {
-        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    std::filesystem::directory_iterator entry(folder, error);
+    for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+        if (entry->path().extension() != ".json") continue;
+        std::string name = entry->path().stem().string();
+        if (is_level_name(name)) names.push_back(std::move(name));
+    }
+    if (error) {
+        return fail(ErrorCode::Io, fmt::format("{}: the folder cannot be read.", folder.string()));
     }
     // What the game came with first, then others by name.
     std::ranges::sort(names, [](const std::string& a, const std::string& b) {
@@ -40,13 +51,14 @@ std::vector<std::string> level_names(const std::filesystem::path& assets) {
 }
 
 Result<Level> load_named_level(const std::filesystem::path& assets, const std::string& name) {
-    const std::vector<std::string> names = level_names(assets);
-    if (std::ranges::find(names, name) == names.end()) {
+    const auto names = level_names(assets);
+    if (!names) return forward_error(names);
+    if (std::ranges::find(*names, name) == names->end()) {
         return fail(
             ErrorCode::InvalidInput,
             fmt::format("There is no level \"{}\" in {}; there are {}.", name,
                         (assets / "levels").string(),
-                        names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+                        names->empty() ? "none" : fmt::format("{}", fmt::join(*names, ", "))));
     }
     return load_level(assets / "levels" / (name + ".json"));
 }

@@ -16,11 +16,13 @@ namespace gnomon::game {
 
 [[nodiscard]] std::filesystem::path assets_folder();
 
-/// Names of all levels in a folder of assets, in the order in which they are played.
-[[nodiscard]] std::vector<std::string> level_names(const std::filesystem::path& assets);
+/// Names of all levels in a folder of assets, in the order in which they are played: of the files
+/// levels/NAME.json whose names recordings can hold (is_level_name()). Fails with ErrorCode::Io
+/// where the folder cannot be read.
+[[nodiscard]] Result<std::vector<std::string>> level_names(const std::filesystem::path& assets);
 
-/// A level by its name. Fails as load_level(), and with ErrorCode::InvalidInput where there is none
-/// of that name.
+/// A level by its name. Fails as level_names() and load_level(), and with ErrorCode::InvalidInput
+/// where there is none of that name.
 [[nodiscard]] Result<Level> load_named_level(const std::filesystem::path& assets,
                                              const std::string& name);
 

@@ -2,8 +2,12 @@
 #include "command_line.hpp"
 
 #include <charconv>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -84,9 +88,23 @@ const char* words_of(Outcome outcome) {
     return "";
 }
 
+std::filesystem::path assets_of(const Options& o) {
+    return o.assets.empty() ? assets_folder() : std::filesystem::path(o.assets);
+}
+
+int list_levels(const std::filesystem::path& assets) {
+    const auto names = level_names(assets);
+    if (!names) return report(names.error());
+    for (const std::string& name : *names) {
+        const auto level = load_named_level(assets, name);
+        if (!level) return report(level.error());
+        fmt::print("{}: {}\n", name, level->name);
+    }
+    return 0;
+}
+
 int play_headless(const Options& o) {
-    const std::filesystem::path assets =
-        o.assets.empty() ? assets_folder() : std::filesystem::path(o.assets);
+    const std::filesystem::path assets = assets_of(o);
     Recording recording;
     if (!o.replay.empty()) {
         auto read = load_recording(o.replay);
@@ -94,8 +112,9 @@ int play_headless(const Options& o) {
         recording = std::move(*read);
     } else {
         recording.level = o.level;
-        const std::vector<std::string> names = level_names(assets);
-        if (recording.level.empty() && !names.empty()) recording.level = names.front();
+        const auto names = level_names(assets);
+        if (!names) return report(names.error());
+        if (recording.level.empty() && !names->empty()) recording.level = names->front();
     }
     const auto level = load_named_level(assets, recording.level);
     if (!level) return report(level.error());
@@ -109,14 +128,15 @@ int play_headless(const Options& o) {
         if (!played) return report(played.error());
         recording = std::move(*played);
     }
-    const auto ended = play(*level, recording, o.capture);
-    if (!ended) return report(ended.error());
+    // First, so that a device that fails costs nobody what was pressed.
     if (!o.record.empty()) {
         cli::OutputFiles files;
         Status written = files.add(o.record, to_text(recording));
         if (written) written = files.commit();
         if (!written) return report(written.error());
     }
+    const auto ended = play(*level, recording, o.capture);
+    if (!ended) return report(ended.error());
     fmt::print("{}: {} after {:.2f} s\n", level->name, words_of(ended->outcome),
                seconds(ended->ticks));
     if (ended->pictures > 0) {
@@ -142,15 +162,13 @@ int run(int argc, char** argv) {
         if (!sentence.ends_with('.')) sentence += '.';
         return refuse(std::move(sentence));
     }
-    if (o.list_levels) {
-        const std::filesystem::path assets =
-            o.assets.empty() ? assets_folder() : std::filesystem::path(o.assets);
-        for (const std::string& name : level_names(assets)) {
-            const auto level = load_named_level(assets, name);
-            if (!level) return report(level.error());
-            fmt::print("{}: {}\n", name, level->name);
+    if (o.list_levels) return list_levels(assets_of(o));
+    if (o.capture.folder.empty()) {
+        for (const char* name : {"--every", "--backend", "--size", "--samples"}) {
+            if (app.count(name) == 0) continue;
+            return refuse(fmt::format(
+                "{} is about pictures, which are kept by --capture DIR alone; give both.", name));
         }
-        return 0;
     }
     if (!parse_size(o.size, o.capture)) {
         return refuse(fmt::format(

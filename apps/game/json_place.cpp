@@ -20,6 +20,14 @@ std::string short_text(const nlohmann::json& value) {
     return text;
 }
 
+/// U+0080 to U+009F, which terminals obey as well. The parser has seen to it that it is UTF-8.
+bool has_control_of_two_bytes(std::string_view text) {
+    for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+        if (text[i] == '\xC2' && static_cast<unsigned char>(text[i + 1]) < 0xA0) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 void JsonPlace::refuse(std::string_view what) const {
@@ -34,7 +42,7 @@ const JsonPlace& JsonPlace::only(std::initializer_list<std::string_view> names) 
     if (!value_->is_object()) must_be("an object");
     for (const auto& item : value_->items()) {
         if (std::find(names.begin(), names.end(), item.key()) == names.end()) {
-            refuse(fmt::format("has the unknown member \"{}\"; known are {}", item.key(),
+            refuse(fmt::format("has the unknown member {}; known are {}", short_text(item.key()),
                                fmt::join(names, ", ")));
         }
     }
@@ -103,6 +111,10 @@ const std::string& JsonPlace::text(std::size_t most) const {
     const auto& text = value_->get_ref<const std::string&>();
     if (text.empty() || text.size() > most) {
         must_be(fmt::format("a text of 1 to {} bytes", most));
+    }
+    if (std::ranges::any_of(text, [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }) ||
+        has_control_of_two_bytes(text)) {
+        must_be("a text without control characters");
     }
     return text;
 }

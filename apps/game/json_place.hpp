@@ -46,7 +46,8 @@ public:
     [[nodiscard]] std::uint32_t whole(std::uint32_t min, std::uint32_t max) const;
     [[nodiscard]] glm::dvec2 vec2(double min, double max) const;
     [[nodiscard]] glm::dvec3 vec3(double min, double max) const;
-    [[nodiscard]] const std::string& text(std::size_t most) const;  ///< of 1 to `most` bytes
+    /// Of 1 to `most` bytes, without control characters: it may be shown as it is.
+    [[nodiscard]] const std::string& text(std::size_t most) const;
 
 private:
     [[nodiscard]] std::vector<double> numbers(std::size_t count, double min, double max) const;

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <gnomon/core/expects.hpp>
+
 namespace gnomon::game {
 
 namespace {
@@ -25,11 +27,12 @@ std::string letters_of(const Input& input) {
     return letters.empty() ? "-" : letters;
 }
 
-bool is_level_name(std::string_view name) {
-    constexpr std::string_view allowed =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
-    return !name.empty() && name.size() <= 60 &&
-           name.find_first_not_of(allowed) == std::string_view::npos;
+/// A word for a sentence: no more of it than says which it is, and nothing that a terminal obeys.
+std::string printable(std::string_view word) {
+    std::string shown(word.substr(0, 70));
+    std::ranges::replace_if(
+        shown, [](char c) { return c < ' ' || c > '~'; }, '?');
+    return shown;
 }
 
 /// Line by line, word by word; says where it is.
@@ -67,7 +70,7 @@ public:
         const bool whole = error == std::errc{} && end == word.data() + word.size();
         if (!whole || value < min || value > max) {
             return refuse(fmt::format("{} is \"{}\", but must be a whole number from {} to {}",
-                                      name, word.substr(0, 40), min, max));
+                                      name, printable(word), min, max));
         }
         return value;
     }
@@ -95,7 +98,7 @@ Result<Input> input_of(const Reader& reader, const std::vector<std::string_view>
             return reader.refuse(
                 fmt::format("\"{}\" is not made of the letters s, r, n and p, "
                             "each at most once, nor is it -",
-                            words[3].substr(0, 40)));
+                            printable(words[3])));
         }
         *held = true;
     }
@@ -113,7 +116,16 @@ Result<std::string> header(Reader& reader, std::string_view name) {
 
 }  // namespace
 
+bool is_level_name(std::string_view name) {
+    constexpr std::string_view allowed =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+    return !name.empty() && name.size() <= 60 &&
+           name.find_first_not_of(allowed) == std::string_view::npos;
+}
+
 std::string to_text(const Recording& recording) {
+    GNOMON_EXPECTS(is_level_name(recording.level));
+    GNOMON_EXPECTS(recording.inputs.size() <= most_ticks);
     std::string text =
         fmt::format("{} 1\nlevel {}\nticks {}\n", magic, recording.level, recording.inputs.size());
     for (std::size_t i = 0; i < recording.inputs.size();) {
@@ -132,7 +144,7 @@ Result<Recording> read_recording(std::string_view text, const std::string& file)
     if (!version) return forward_error(version);
     if (*version != "1") {
         return reader.refuse(
-            fmt::format("the version is \"{}\", but this program reads 1", version->substr(0, 40)));
+            fmt::format("the version is \"{}\", but this program reads 1", printable(*version)));
     }
     Recording recording;
     auto level = header(reader, "level");
@@ -140,7 +152,7 @@ Result<Recording> read_recording(std::string_view text, const std::string& file)
     if (!is_level_name(*level)) {
         return reader.refuse(
             fmt::format("the level is \"{}\", but must be 1 to 60 letters, digits, \"-\" or \"_\"",
-                        level->substr(0, 70)));
+                        printable(*level)));
     }
     recording.level = std::move(*level);
     const auto ticks_word = header(reader, "ticks");
@@ -175,6 +187,9 @@ Result<Recording> read_recording(std::string_view text, const std::string& file)
         return reader.refuse(
             fmt::format("there is input for {} ticks, but the recording is said to have {}",
                         recording.inputs.size(), wanted));
+    }
+    if (reader.line()) {
+        return reader.refuse("here is a line after the line \"end\", but that must be the last");
     }
     return recording;
 }

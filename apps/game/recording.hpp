@@ -14,6 +14,7 @@
 // n restart (anew), p pause, or - for none.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -26,7 +27,7 @@
 namespace gnomon::game {
 
 struct Recording {
-    std::string level;  ///< its name among the levels: letters, digits, "-" and "_"
+    std::string level;  ///< its name among the levels; is_level_name()
     std::vector<Input> inputs;
 
     bool operator==(const Recording&) const = default;
@@ -35,10 +36,15 @@ struct Recording {
 /// At most, of a recording: an hour.
 inline constexpr std::size_t most_ticks = 216000;
 
+/// 1 to 60 letters, digits, "-" or "_": a word of a line, and a file's name anywhere.
+[[nodiscard]] bool is_level_name(std::string_view name);
+
+/// The recording's level must be a name by is_level_name(), its inputs no more than `most_ticks`,
+/// and their axes from -127 to 127.
 [[nodiscard]] std::string to_text(const Recording& recording);
 
 /// The inverse of to_text(). Fails with ErrorCode::InvalidInput, one sentence that names `file`,
-/// line, value and limit.
+/// line, value and limit; so does anything that follows the last line.
 [[nodiscard]] Result<Recording> read_recording(std::string_view text, const std::string& file);
 
 /// Fails as read_recording(), and with ErrorCode::Io.

@@ -4,8 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
 
 namespace gnomon::game {
 namespace {
@@ -23,7 +28,7 @@ struct Said {
 
 Said say(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "gnomon-game");
-    if (arguments.size() > 1) {
+    if (arguments.size() > 1 && std::ranges::find(arguments, "--assets") == arguments.end()) {
         arguments.insert(arguments.end(), {"--assets", GNOMON_GAME_ASSETS});
     }
     std::vector<char*> argv;
@@ -60,6 +65,21 @@ TEST(CommandLine, a_replay_says_its_hash_last) {
     EXPECT_EQ(say({"--headless", "--replay", file.string()}).out, said.out);
 }
 
+TEST(CommandLine, records_even_where_no_picture_can_be_taken) {
+    const std::filesystem::path file = output("waited.replay");
+    const std::string text = "gnomon-replay 1\nlevel courtyard\nticks 3\n3 0 0 s\nend\n";
+    std::ofstream(file) << text;
+    const std::filesystem::path copy = output("copy.replay");
+    std::filesystem::remove(copy);
+    // A folder cannot lie in a file.
+    const Said said = say({"--headless", "--replay", file.string(), "--record", copy.string(),
+                           "--capture", (file / "pictures").string()});
+    EXPECT_EQ(said.code, 2);
+    EXPECT_THAT(said.error, HasSubstr("the folder cannot be made"));
+    std::ifstream written(copy);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(written), {}), text);
+}
+
 TEST(CommandLine, captures_pictures) {
     const std::filesystem::path file = output("short.replay");
     std::ofstream(file) << "gnomon-replay 1\nlevel courtyard\nticks 5\n5 0 0 -\nend\n";
@@ -92,10 +112,24 @@ TEST(CommandLine, refuses_in_one_sentence) {
         {{"--headless", "--replay", "no/such.replay"},
          2,
          "gnomon-game: no/such.replay: the recording cannot be read.\n"},
-        {{"--headless", "--autopilot", "--size", "12by9"},
+        {{"--headless", "--autopilot", "--capture", "x", "--size", "12by9"},
          2,
          "gnomon-game: --size is \"12by9\", but must be two numbers from 1 to 16384 with an x "
          "between, such as 1280x720.\n"},
+        {{"--headless", "--autopilot", "--samples", "4"},
+         2,
+         "gnomon-game: --samples is about pictures, which are kept by --capture DIR alone; give "
+         "both.\n"},
+        {{"--headless", "--autopilot", "--size", "640x360"},
+         2,
+         "gnomon-game: --size is about pictures, which are kept by --capture DIR alone; give "
+         "both.\n"},
+        {{"--list-levels", "--assets", "no/such"},
+         2,
+         "gnomon-game: no/such/levels: the folder cannot be read.\n"},
+        {{"--headless", "--autopilot", "--assets", "no/such"},
+         2,
+         "gnomon-game: no/such/levels: the folder cannot be read.\n"},
         {{"--replay", "x", "--level", "courtyard"},
          2,
          "gnomon-game: --level goes without --replay: a recording names its own level.\n"}};

@@ -5,9 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <vector>
 
 #include "assets.hpp"
+#include "recording.hpp"
 #include "world.hpp"
 
 namespace gnomon::game {
@@ -87,6 +91,19 @@ INSTANTIATE_TEST_SUITE_P(
             "the document has the unknown member \"sunn\"; known are format, name, hint, size_m, "
             "mood, camera, player, exit, seen_lux, caught_after_s, sun, walls, blocks, columns, "
             "lamps, searchlights, guards, doors, cranes, wheels."},
+        Bad{"huge_unknown_member", "{\"" + std::string(5000, 'x') + "\": 1}",
+            "the document has the unknown member \"" + std::string(59, 'x') +
+                "…; known are format, name, hint, size_m, mood, camera, player, exit, seen_lux, "
+                "caught_after_s, sun, walls, blocks, columns, lamps, searchlights, guards, doors, "
+                "cranes, wheels."},
+        Bad{"unknown_member_that_a_terminal_obeys", with(R"("sun": {"\u001b[2J": 1})"),
+            R"(sun has the unknown member "\u001b[2J"; known are from_deg, to_deg, period_s, lux, )"
+            "color."},
+        Bad{"name_that_a_terminal_obeys", R"({"format": "gnomon-level 1", "name": "a\u001b[2J"})",
+            R"(name is "a\u001b[2J", but must be a text without control characters.)"},
+        Bad{"name_with_a_control_of_two_bytes",
+            R"({"format": "gnomon-level 1", "name": "a\u009b2J"})",
+            R"(name is "a\u009b2J", but must be a text without control characters.)"},
         Bad{"wrong_kind", with(R"("guards": {"path": []})"),
             "guards is an object, but must be an array of 0 to 200 entries."},
         Bad{"out_of_range", with(R"("guards": [{"path": [[0, 0], [1, 0]], "speed_m_s": -2}])"),
@@ -267,10 +284,30 @@ TEST(Level, a_name_that_is_not_there_is_answered_with_those_that_are) {
                                                       "dockyard.")));
 }
 
+TEST(Level, names_are_those_that_recordings_can_hold) {
+    const auto assets = std::filesystem::path(GNOMON_TEST_OUTPUT) / "game" / "named";
+    std::filesystem::remove_all(assets);
+    std::filesystem::create_directories(assets / "levels");
+    for (const char* name :
+         {"b.json", "a-1_B.json", "with space.json", "dots.2.json", "other.txt", "dockyard.json"}) {
+        std::ofstream(assets / "levels" / name) << with("");
+    }
+    std::ofstream(assets / "levels" / (std::string(61, 'x') + ".json")) << with("");
+    const auto names = level_names(assets);
+    ASSERT_TRUE(names) << names.error().message;
+    EXPECT_EQ(*names, (std::vector<std::string>{"dockyard", "a-1_B", "b"}));
+    for (const std::string& name : *names) {
+        const Recording recording{.level = name, .inputs = {}};
+        EXPECT_EQ(read_recording(to_text(recording), "x.replay"), recording);
+        EXPECT_TRUE(load_named_level(assets, name));
+    }
+}
+
 TEST(Level, those_that_come_with_the_game_are_read) {
     const auto names = level_names(GNOMON_GAME_ASSETS);
-    EXPECT_GE(names.size(), 3U);
-    for (const std::string& name : names) {
+    ASSERT_TRUE(names) << names.error().message;
+    EXPECT_GE(names->size(), 3U);
+    for (const std::string& name : *names) {
         const auto level = load_named_level(GNOMON_GAME_ASSETS, name);
         ASSERT_TRUE(level) << level.error().message;
         EXPECT_FALSE(level->hint.empty()) << name;

@@ -4,7 +4,15 @@
 // recording.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "assets.hpp"
 #include "drawing.hpp"
@@ -75,7 +83,7 @@ void expect_neither_black_nor_white(const std::vector<std::byte>& rgba) {
 
 TEST_P(Pictures, have_the_masks_of_every_other_device) {
     static std::map<std::string, Masks> first;
-    for (const std::string& name : level_names(GNOMON_GAME_ASSETS)) {
+    for (const std::string& name : test::must(level_names(GNOMON_GAME_ASSETS))) {
         World& world = middle_of(name);
         const std::uint64_t hash = world.hash();
         const Shot shot = take(device(), world);
@@ -103,7 +111,7 @@ std::optional<glm::ivec2> pixel_of(const shadows::View& view, const glm::dvec3& 
 
 // What you see is what they know: points of the ground that the camera sees, under every light.
 TEST_P(Pictures, show_what_the_meter_knows) {
-    const std::vector<std::string> names = level_names(GNOMON_GAME_ASSETS);
+    const std::vector<std::string> names = test::must(level_names(GNOMON_GAME_ASSETS));
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (!test::falls_to(number(), i, names.size())) continue;
         const std::string& name = names[i];

@@ -56,6 +56,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"version", "gnomon-replay 2\n", "1: the version is \"2\", but this program reads 1."},
         Bad{"level", "gnomon-replay 1\nlevel ../etc\n",
             "2: the level is \"../etc\", but must be 1 to 60 letters, digits, \"-\" or \"_\"."},
+        Bad{"level_that_a_terminal_obeys", "gnomon-replay 1\nlevel \x1b[2J\n",
+            "2: the level is \"?[2J\", but must be 1 to 60 letters, digits, \"-\" or \"_\"."},
         Bad{"ticks", "gnomon-replay 1\nlevel a\nticks 300000\n",
             "3: ticks is \"300000\", but must be a whole number from 0 to 216000."},
         Bad{"words", head + "4 0 0\n",
@@ -73,7 +75,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"too_few", head + "3 0 0 -\nend\n",
             "5: there is input for 3 ticks, but the recording is said to have 4."},
         Bad{"cut_off", head + "4 0 0 -\n",
-            "4: the recording breaks off; its last line must be \"end\"."}),
+            "4: the recording breaks off; its last line must be \"end\"."},
+        Bad{"more_after_the_end", head + "4 0 0 -\nend\ngnomon-replay 1\n",
+            "6: here is a line after the line \"end\", but that must be the last."}),
     [](const auto& row) { return row.param.name; });
 
 TEST(Recordings, a_file_that_is_not_there_is_named) {
