@@ -1,6 +1,5 @@
 # What `cmake --install` puts where: the libraries that were built, their public headers, the program, and a package
 # that `find_package(gnomon COMPONENTS shadows)` finds. Nothing of internal/ leaves the source tree.
-option(GNOMON_INSTALL "The install rules" ${PROJECT_IS_TOP_LEVEL})
 if(NOT GNOMON_INSTALL)
   return()
 endif()

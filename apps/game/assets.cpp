@@ -27,7 +27,15 @@ std::size_t place_in_order(const std::string& name) {
 std::filesystem::path assets_folder() {
     std::error_code error;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-    return program.parent_path().parent_path() / "share" / "gnomon" / "game";
+    const auto by = [&](const char* data_from_program) {
+        return (program.parent_path() / data_from_program / "gnomon" / "game").lexically_normal();
+    };
+    const auto installed = by(GNOMON_DATA_FROM_PROGRAM);
+    const auto built = by("../share");
+    return !std::filesystem::is_directory(installed, error) &&
+                   std::filesystem::is_directory(built, error)
+               ? built
+               : installed;
 }
 
 Result<std::vector<std::string>> level_names(const std::filesystem::path& assets) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Where levels and recordings lie: beside the program, in ../share/gnomon/game, both where it was
-// built and where it was installed.
+// Where levels and recordings lie: beside the program, in share/gnomon/game, both where it was
+// built and where it was installed, wherever that has been moved to.
 #pragma once
 
 #include <filesystem>
@@ -14,6 +14,7 @@
 
 namespace gnomon::game {
 
+/// The folder that holds levels/; may be missing.
 [[nodiscard]] std::filesystem::path assets_folder();
 
 /// Names of all levels in a folder of assets, in the order in which they are played: of the files
