@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gnomon/render/camera.hpp>
 
@@ -16,9 +17,13 @@ shadows::View follow(const Level& level, const Player& player, double aspect, co
     rig.pitch_rad =
         std::clamp(rig.pitch_rad + look.pitch_rad, glm::radians(20.0), glm::radians(85.0));
     rig.distance_m /= look.nearer;
-    // Of the level, what the picture shows about the middle of its sides.
-    const glm::dvec2 margin(rig.distance_m * std::tan(rig.fovy_rad * 0.5) *
-                            glm::dvec2(aspect, 1.0));
+    // Of the level, what the picture shows about the middle of its sides: the box about that, as it
+    // is turned in plan.
+    const glm::dvec2 shown =
+        rig.distance_m * std::tan(rig.fovy_rad * 0.5) * glm::dvec2(aspect, 1.0);
+    const glm::dvec2 turn = glm::abs(glm::dvec2(std::cos(rig.yaw_rad), std::sin(rig.yaw_rad)));
+    const glm::dvec2 margin(turn.x * shown.x + turn.y * shown.y,
+                            turn.y * shown.x + turn.x * shown.y);
     const glm::dvec2 room = glm::max(level.size_m * 0.5 + 2.0 - margin, glm::dvec2(0.0));
     const glm::dvec2 ahead = plan_direction(rig.yaw_rad) * -1.2;
     const glm::dvec2 at = glm::clamp(player.at + ahead, -room, room);

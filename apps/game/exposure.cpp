@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <gnomon/core/expects.hpp>
+
 #include "timing.hpp"
 
 namespace gnomon::game {
@@ -10,6 +12,7 @@ namespace gnomon::game {
 Reading read_exposure(const shadows::ShadowQueries& queries, std::span<const MeterLight> lights,
                       std::span<const glm::dvec3> points, double seen_lux,
                       std::span<const std::uint64_t> own) {
+    GNOMON_EXPECTS(points.size() <= 32);  // a bit each
     Reading reading;
     reading.reached.assign(lights.size(), 0);
     std::vector<double> lux(points.size(), 0.0);

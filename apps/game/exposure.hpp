@@ -20,12 +20,13 @@ namespace gnomon::game {
 /// What one look at all lights says.
 struct Reading {
     double level = 0.0;  ///< 0: dark all over, 1: every point has seen_lux or more
-    /// Bit p of entry l: point p is reached by light l (of meter_lights()), bright or not.
+    /// Bit p of entry l: point p is reached by light l (of meter_lights()), and by enough of it to
+    /// matter.
     std::vector<std::uint32_t> reached;
 };
 
-/// The keys in `own` are looked through: nobody hides in their own shadow. Points too dark to
-/// matter under a light are not asked about.
+/// Of 32 points at most. The keys in `own` are looked through: nobody hides in their own shadow. A
+/// point on which a light sheds less than a thousandth of `seen_lux` is not asked about.
 [[nodiscard]] Reading read_exposure(const shadows::ShadowQueries& queries,
                                     std::span<const MeterLight> lights,
                                     std::span<const glm::dvec3> points, double seen_lux,

@@ -8,7 +8,7 @@ namespace gnomon::game {
 
 namespace {
 
-/// 0 to 1 from two whole numbers; an integer hash after T. Wang.
+/// 0 to 1 from two whole numbers; the integer hash is prospector32 by C. Wellons (hash-prospector).
 double noise_at(std::int32_t x, std::int32_t y) {
     std::uint32_t h =
         static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U;

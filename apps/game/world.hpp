@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // World: the simulation. A level, a tick, an input; no clock, no device, no picture. The same level
-// and the same inputs give the same states, tick by tick, on every run of one build.
+// and the same inputs give the same states, tick by tick, on every run of one build on one machine:
+// the sines and cosines of another one's C library may round otherwise.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +39,8 @@ public:
     [[nodiscard]] Stage& stage() { return stage_; }
 
     /// FNV-1a over all that the rules know, rounded to tenths of millimetres and of thousandths,
-    /// what the shadow queries answered included.
+    /// what the shadow queries answered included. To compare with others of one build on one
+    /// machine.
     [[nodiscard]] std::uint64_t hash() const;
 
 private:

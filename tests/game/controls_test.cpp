@@ -70,5 +70,28 @@ TEST(Camera, turns_by_what_is_asked_for_and_not_below_the_ground) {
     EXPECT_LT(eye_of({.nearer = 2.0}).y, 0.7 * eye_of({}).y);
 }
 
+// A level, its camera and who is in it may be turned together: the picture is the same.
+TEST(Camera, stays_over_a_level_that_is_turned_with_it) {
+    // A quarter turn in plan, as plan angles turn: south becomes east.
+    const auto turned = [](const glm::dvec2& plan) { return glm::dvec2(plan.y, -plan.x); };
+    Level level;
+    level.size_m = {40.0, 24.0};
+    for (const double yaw : {0.0, 0.3, -1.1}) {
+        level.camera.yaw_rad = yaw;
+        Level other = level;
+        other.size_m = {24.0, 40.0};
+        other.camera.yaw_rad = yaw + 1.5707963267948966;
+        for (const glm::dvec2& at : {glm::dvec2(18.0, 10.0), {-18.0, 3.0}, {2.0, -11.0}}) {
+            const auto eye_of = [](const Level& of, const glm::dvec2& who) {
+                return glm::dvec3(glm::inverse(follow(of, {.at = who}, 1.78).view_from_world)[3]);
+            };
+            const glm::dvec3 eye = eye_of(level, at);
+            const glm::dvec3 other_eye = eye_of(other, turned(at));
+            EXPECT_NEAR(glm::length(turned({eye.x, eye.z}) - glm::dvec2(other_eye.x, other_eye.z)),
+                        0.0, 1e-9);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gnomon::game

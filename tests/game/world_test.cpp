@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
 #include "tests/game/small_level.hpp"
 
 namespace gnomon::game {
@@ -79,6 +83,32 @@ TEST(World, a_door_opens_for_who_is_near) {
     EXPECT_EQ(play_out(with, {.east = 127, .run = true}), Outcome::Won);
     EXPECT_TRUE(with.tick({.restart = true}));
     EXPECT_EQ(with.hash(), shut) << "and it is shut again";
+}
+
+TEST(World, a_door_holds_back_who_is_there_before_it_is_open) {
+    // Near is about the leaf's middle; whoever runs at the edge of a wide one comes near late.
+    Level level = bare_level();
+    level.start = {-5.0, 1.45};
+    level.exit = {6.0, 1.45};
+    World without = must_create(level);
+    level.doors.push_back({.hinge = {0.0, -2.0}, .width_m = 4.0, .turn_rad = 0.0});
+    World with = must_create(level);
+    const Input run{.east = 127, .run = true};
+    EXPECT_EQ(play_out(without, run), Outcome::Won);
+    double farthest = with.player().at.x;
+    int held = 0;
+    while (with.outcome() == Outcome::Playing && with.now() < 3600) {
+        EXPECT_TRUE(with.tick(run));
+        held += with.player().at.x - farthest < 1e-9 ? 1 : 0;
+        farthest = with.player().at.x;
+        // It stands 0.06 metres before the leaf's plane, and the figure's radius away from that.
+        if (held > 0 && held < 10) {
+            EXPECT_NEAR(farthest, -0.36, 1e-9);
+        }
+    }
+    EXPECT_EQ(with.outcome(), Outcome::Won);
+    EXPECT_GE(held, 10);
+    EXPECT_GE(with.now(), without.now() + 10);
 }
 
 TEST(World, a_pause_holds_everything) {
