@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include <gnomon/core/result.hpp>
 
 #include "level.hpp"

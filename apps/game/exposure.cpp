@@ -2,6 +2,7 @@
 #include "exposure.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <gnomon/core/expects.hpp>
 

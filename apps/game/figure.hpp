@@ -5,9 +5,14 @@
 // feet stand still on the ground.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include <gnomon/core/result.hpp>
 #include <gnomon/scene/scene.hpp>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // What figures look like: tubes of ten corners through a handful of ellipses each.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "figure.hpp"
 

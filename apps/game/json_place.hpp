@@ -5,12 +5,14 @@
 // 4.". It throws BadLevel; the reader catches that at its border (level.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>

@@ -6,6 +6,7 @@
 // east (+X). The format is described in docs/game.md.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>

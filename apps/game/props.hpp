@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include <glm/glm.hpp>
+
 #include <gnomon/scene/mesh.hpp>
 
 namespace gnomon::game {

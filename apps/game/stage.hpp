@@ -5,9 +5,14 @@
 // shadow queries are asked about.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include <gnomon/core/result.hpp>
 #include <gnomon/scene/scene.hpp>

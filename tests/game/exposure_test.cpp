@@ -5,6 +5,8 @@
 
 #include <gnomon/scene/transforms.hpp>
 
+#include <cmath>
+
 #include "stage.hpp"
 #include "tests/game/small_level.hpp"
 #include "timing.hpp"
