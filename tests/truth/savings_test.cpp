@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What FillOptions leave out, no pixel can tell. Culls and scissors: the same bytes on every
-// surface, whatever else is left out; of umbrae: zero stays zero, and all else is not. Clamping,
+// surface, slabs among what is drawn; of umbrae: zero stays zero, and all else is not. Clamping,
 // slabs and depth bounds: no pixel is wrong outside the band either way; those within it that
 // differ are counted.
 #include <gtest/gtest.h>
@@ -123,21 +123,26 @@ protected:
 
 TEST_P(Savings, of_culls_and_scissors_change_no_byte_on_a_surface) {
     constexpr std::array without{
-        std::pair{"view cull", FillOptions{.cull_by_view = false}},
-        std::pair{"receiver cull", FillOptions{.cull_by_receivers = false}},
-        std::pair{"scissor", FillOptions{.scissor = false}},
-        std::pair{"all three",
-                  FillOptions{.cull_by_view = false, .cull_by_receivers = false, .scissor = false}},
+        std::pair{"view cull", FillOptions{.cull_by_view = false, .slabs = true}},
+        std::pair{"receiver cull", FillOptions{.cull_by_receivers = false, .slabs = true}},
+        std::pair{"scissor", FillOptions{.slabs = true, .scissor = false}},
+        std::pair{"all three", FillOptions{.cull_by_view = false,
+                                           .cull_by_receivers = false,
+                                           .slabs = true,
+                                           .scissor = false}},
     };
+    std::uint64_t in_slabs = 0;
     for (std::size_t i = 0; i < rows().size(); ++i) {
         if (!falls_to(number(), i, 2)) continue;
         SCOPED_TRACE(rows()[i].name);
         const Setting setting = rows()[i].make();
-        const Picture with_all = take(rows()[i], setting, {});
+        const Picture with_all = take(rows()[i], setting, {.slabs = true});
+        in_slabs += with_all.list.stats.pairs_in_slabs;
         for (const auto& [name, fill] : without) {
             EXPECT_EQ(compare(with_all, take(rows()[i], setting, fill)).bytes, 0U) << name;
         }
     }
+    EXPECT_GT(in_slabs, 0U);
 }
 
 // Not to the byte: where a rasteriser leaves a crack between two sides of a volume, as SwiftShader
@@ -154,8 +159,8 @@ TEST_P(Savings, of_umbrae_leave_no_shadow_out) {
         if (!falls_to(number(), i, 2) && rows()[i].name != "casters_behind_others") continue;
         SCOPED_TRACE(rows()[i].name);
         const Setting setting = rows()[i].make();
-        const Picture with_all = take(rows()[i], setting, {});
-        const Picture without = take(rows()[i], setting, {.cull_by_umbra = false});
+        const Picture with_all = take(rows()[i], setting, {.slabs = true});
+        const Picture without = take(rows()[i], setting, {.slabs = true, .cull_by_umbra = false});
         EXPECT_EQ(compare(with_all, without).shadow, 0U);
         EXPECT_EQ(without.list.stats.pairs_in_umbra, 0U);
         in_umbra += with_all.list.stats.pairs_in_umbra;
