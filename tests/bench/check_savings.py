@@ -27,6 +27,8 @@ require(measured.returncode == 0, "the room is measured: " + measured.stderr)
 data = json.loads(results.read_text(encoding="utf-8"))
 fragments = {r["without"]: r["fragments"] for r in data["rows"]}
 require({"nothing", "clamp", "scissor", "depth-pass", "all"} <= set(fragments), "each saving has its row")
+with_slabs = fragments.pop("nothing, with slabs")
+require(0 < with_slabs <= fragments["nothing"], "slabs cost no fragments")
 require(all(f >= fragments["nothing"] > 0 for f in fragments.values()), "no saving costs fragments")
 require(fragments["clamp"] > 1.5 * fragments["nothing"], "in a room clamping saves fragments")
 require(fragments["all"] == max(fragments.values()), "nothing costs more than to do without all of them")
@@ -44,3 +46,5 @@ with tempfile.TemporaryDirectory() as folder:
     kept = lambda t: [p for p in t.split("<!-- table: ") if not p.startswith("savings-")]
     text = document.read_text(encoding="utf-8")
     require(text != original and kept(text) == kept(original), "and changes its own tables alone")
+    fill = text.split("<!-- table: savings-fill -->")[1].split("<!-- end of table -->")[0]
+    require(fill.strip().splitlines()[0].endswith("| without all | with slabs |"), "slabs have a column of their own")
