@@ -425,6 +425,9 @@ Status Renderer::reconfigure(const RendererDesc& desc) {
     if (desc == s.desc) return {};
     s.desc = desc;
     s.recorded.reset();
+    // What measure_fill() would measure is gone with the passes.
+    s.lights.clear();
+    s.light_count = 0;
     if (desc != resized) {
         if (const Status made = s.create_passes(); !made) return made;
     }

@@ -118,7 +118,8 @@ public:
 
     /// Stencil fragments of the last render(), one entry a light, in the order of its draw list; 0
     /// for what was left out. As shadow_pass::count_fill() counts. Blocks until the device has
-    /// counted; the picture and the stencil stay as they are. Needs RendererDesc::meter_fill.
+    /// counted; the picture and the stencil stay as they are. Needs RendererDesc::meter_fill. Empty
+    /// before the first render(), and again after a reconfigure() that changed anything.
     [[nodiscard]] Result<std::vector<shadow_pass::LightFill>> measure_fill();
 
     /// The finished picture: Rgba8Unorm, already sRGB-encoded.

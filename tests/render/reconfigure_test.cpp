@@ -88,6 +88,22 @@ TEST_P(Reconfigured, keeps_the_scene_on_the_device) {
     EXPECT_LT(uploaded - before.uploaded_bytes, device().counters().uploaded_bytes - uploaded);
 }
 
+TEST_P(Reconfigured, has_no_fill_to_measure_before_it_draws_again) {
+    render::RendererDesc desc = plain;
+    desc.meter_fill = true;
+    render::Renderer renderer = make(desc);
+    draw(renderer);
+    const auto before = must(renderer.measure_fill());
+    ASSERT_FALSE(before.empty());
+    for (const bool culls : {true, false}) {
+        desc.cull_back_faces = culls;
+        must(renderer.reconfigure(desc));
+        EXPECT_TRUE(must(renderer.measure_fill()).empty());
+    }
+    draw(renderer);
+    EXPECT_EQ(must(renderer.measure_fill()).size(), before.size());
+}
+
 INSTANTIATE_TEST_SUITE_P(Devices, Reconfigured, testing::ValuesIn(drawing_devices()),
                          device_case_name);
 
