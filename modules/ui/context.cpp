@@ -94,6 +94,8 @@ Context::~Context() {
 void Context::begin_frame(const input::Input& input, const glm::uvec2& size_px, double dt_s) {
     GNOMON_EXPECTS(size_px.x > 0 && size_px.y > 0 && dt_s >= 0.0);
     ImGui::SetCurrentContext(context_);
+    // A frame that its caller gave up: nothing where it was ended.
+    if (ImGui::GetFrameCount() > 0) ImGui::EndFrame();
     ImGuiIO& io = ImGui::GetIO();
     if (!io.Fonts->IsBuilt()) io.Fonts->Build();
     io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};

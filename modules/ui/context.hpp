@@ -48,7 +48,7 @@ public:
     ~Context();
 
     /// `size_px`: the framebuffer's, at least 1 x 1. `dt_s` is what blinking and repeats go by; not
-    /// negative.
+    /// negative. A frame that was begun and not ended is given up.
     void begin_frame(const input::Input& input, const glm::uvec2& size_px, double dt_s);
     /// Stands until the next begin_frame().
     [[nodiscard]] const ImDrawData& end_frame();

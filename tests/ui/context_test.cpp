@@ -71,6 +71,19 @@ TEST_F(UiContext, what_is_typed_arrives) {
     EXPECT_STREQ(text, "gnomo");
 }
 
+TEST_F(UiContext, a_frame_that_was_given_up_does_not_hinder_the_next) {
+    context.begin_frame(input, {400, 300}, 1.0 / 60.0);
+    ImGui::Begin("never drawn");
+    ImGui::End();
+    input.move_cursor({40, 30});
+    frame();
+    frame();
+    input.press(MouseButton::Left);
+    input.release(MouseButton::Left);
+    for (int i = 0; i < 4; ++i) frame();
+    EXPECT_EQ(clicks, 1);
+}
+
 TEST_F(UiContext, an_unreadable_font_is_replaced) {
     Context other({.fonts = {"/there/is/no/such.ttf"}});
     other.begin_frame(input, {100, 100}, 0.0);

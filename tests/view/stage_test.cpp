@@ -5,6 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <gnomon/render/camera.hpp>
@@ -198,14 +203,81 @@ TEST_P(OnStage, a_ground_takes_the_shadow_and_goes_again) {
     EXPECT_NE(draw(), before);
     stage->show_ground(false);
     EXPECT_EQ(draw(), before);
+    const std::size_t materials = stage->shot().scene.materials.size();
+    stage->show_ground(true);
+    EXPECT_EQ(stage->shot().scene.materials.size(), materials) << "the one from before";
+}
+
+TEST_P(OnStage, who_picked_the_ground_learns_that_it_is_gone) {
+    open("builtin:open-shapes");
+    stage->show_ground(true);
+    must(stage->set_time(0.0));
+    static_cast<void>(draw());
+    // Beyond whatever floor the scene has.
+    const scene::Bounds& bounds = stage->shot().bounds;
+    const auto hit =
+        stage->pick({{bounds.min.x - 0.2 * bounds.diagonal(), bounds.max.y, bounds.center().z},
+                     {0.0, -1.0, 0.0}});
+    ASSERT_TRUE(hit);
+    ASSERT_EQ(stage->name_of(hit->entity), "ground");
+    EXPECT_TRUE(stage->is_there(hit->entity));
+    stage->show_ground(false);
+    EXPECT_FALSE(stage->is_there(hit->entity));
+    stage->show_ground(true);
+    EXPECT_FALSE(stage->is_there(hit->entity)) << "another one";
+}
+
+TEST_P(OnStage, the_probe_says_lit_of_lights_without_shadow) {
+    open("builtin:pillars");
+    static_cast<void>(draw());
+    std::optional<Ray> dark;
+    std::size_t light = 0;
+    for (unsigned y = 4; y < size.y && !dark; y += 6) {
+        for (unsigned x = 4; x < size.x && !dark; x += 6) {
+            const Ray ray = ray_through(view(), {x, y}, size);
+            const auto probe = must(stage->probe(ray));
+            if (!probe) continue;
+            for (const Probe::Answer& answer : probe->answers) {
+                if (answer.exposure != shadows::Exposure::Shadowed) continue;
+                dark = ray;
+                light = answer.light;
+            }
+        }
+    }
+    ASSERT_TRUE(dark);
+    const auto answer = [&] {
+        static_cast<void>(draw());
+        const auto probe = must(stage->probe(*dark));
+        return *std::ranges::find(probe->answers, light, &Probe::Answer::light);
+    };
+    EXPECT_GT(answer().surfaces, 0U);
+    stage->switch_shadow(light, false);
+    EXPECT_EQ(answer().exposure, shadows::Exposure::Lit);
+    EXPECT_EQ(answer().surfaces, 0U);
+    stage->switch_shadow(light, true);
+    stage->options().max_shadowed_lights = 0;
+    EXPECT_EQ(answer().exposure, shadows::Exposure::Lit);
+    stage->options().max_shadowed_lights.reset();
+    EXPECT_EQ(answer().exposure, shadows::Exposure::Shadowed);
 }
 
 TEST_P(OnStage, goes_on_with_another_device) {
     open("builtin:pillars");
+    EXPECT_FALSE(stage->has_drawn());
     const auto before = draw();
+    EXPECT_TRUE(stage->has_drawn());
     stage->drop_device();
+    EXPECT_FALSE(stage->has_drawn());
+    const auto other = must(gnomon::test::open_device(GetParam()));
+    must(stage->set_device(other->device, size));
+    must(stage->draw(view(), size));
+    EXPECT_EQ(must(other->device.read_texture(stage->picture())), before);
+    // Without drop_device() between.
     must(stage->set_device(device(), size));
+    EXPECT_FALSE(stage->has_drawn());
     EXPECT_EQ(draw(), before);
+    stage->shadows_changed();
+    EXPECT_FALSE(stage->has_drawn());
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, OnStage, testing::ValuesIn(gnomon::test::drawing_devices()),

@@ -179,6 +179,38 @@ TEST_P(ViewOn, every_key_does_something_and_none_harm) {
     EXPECT_THAT(files(), UnorderedElementsAre("run.input", "end.png", "gnomon-walk-1.png"));
 }
 
+TEST_P(ViewOn, the_ground_may_go_while_it_is_held) {
+    write("block.scene.json",
+          R"({"primitives": [{"shape": "box", "size": [1, 1, 1], "translation": [0, 0.5, 0]}]})");
+    for (const std::string mode : {"T", "R"}) {
+        run_well(on(scripted("block.scene.json",
+                             "0 tap " + mode +
+                                 "\n"
+                                 "2 move 90 180\n"
+                                 "3 click left\n"  // selects it
+                                 "6 screenshot before.png\n"
+                                 "6 press left\n"
+                                 "7 move 120 150\n"
+                                 "8 screenshot held.png\n"
+                                 "9 tap G\n"
+                                 "10 move 130 140\n"
+                                 "11 release left\n"
+                                 "12 tap G\n"
+                                 "13 press left\n"
+                                 "14 tap G\n"
+                                 "15 release left\n",
+                             {"--ground", "--eye", "0,4,6", "--target", "0,0.5,0"})));
+        EXPECT_GT(difference(image("before.png"), image("held.png"), 20).pixels, 1000U) << mode;
+    }
+}
+
+TEST_P(ViewOn, a_picture_of_nothing_is_refused) {
+    write("run.input", "0 screenshot a.png\n");
+    expect_refused(on(view("builtin:pillars", {"--quiet", "--script", "run.input"})),
+                   {"a.png", "nothing has been drawn yet"});
+    EXPECT_THAT(files(), ElementsAre("run.input"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, ViewOn, testing::ValuesIn(window::backends()),
                          [](const auto& info) { return std::string(window::name_of(info.param)); });
 

@@ -28,7 +28,10 @@ Status Viewer::handle_keys(const input::Input& input) {
     if (pressed(Key::Tab)) state_.panel = !state_.panel;
     if (pressed(Key::F1)) state_.help = !state_.help;
     if (pressed(Key::Q)) state_.probes = !state_.probes;
-    if (pressed(Key::G)) stage_.show_ground(!stage_.has_ground());
+    if (pressed(Key::G)) {
+        stage_.show_ground(!stage_.has_ground());
+        forget_what_is_gone();
+    }
     if (pressed(Key::P)) state_.wishes.screenshot = true;
     if (pressed(Key::B)) state_.wishes.other_backend = true;
     if (pressed(Key::F)) state_.wishes.frame_all = true;
@@ -52,6 +55,17 @@ Status Viewer::handle_keys(const input::Input& input) {
     state_.playing = false;
     state_.time_s += step;
     return stage_.set_time(state_.time_s);
+}
+
+// The ground may be selected, or held, while it is taken away.
+void Viewer::forget_what_is_gone() {
+    const auto gone = [&](const Selection& selection) {
+        return selection.kind != Selection::Kind::Camera && !stage_.is_there(selection.entity);
+    };
+    if (gone(state_.selection)) state_.selection = {};
+    if (!drag_) return;
+    const bool object_gone = drag_->kind == Drag::Kind::Object && !stage_.is_there(drag_->node);
+    if (object_gone || (drag_->candidate && gone(*drag_->candidate))) drag_.reset();
 }
 
 void Viewer::select_next_light() {

@@ -43,8 +43,8 @@ void draw_sun(ImDrawList& list, const ImVec2& c, float radius, ImU32 color, floa
     }
 }
 
-void show_lights(ImDrawList& list, const ViewState& state, const Stage& stage,
-                 const shadows::View& view, const glm::uvec2& size_px) {
+void show_handles(ImDrawList& list, const ViewState& state, const Stage& stage,
+                  const shadows::View& view, const glm::uvec2& size_px) {
     const auto hovered = light_under(stage, view, size_px, state.cursor_px);
     for (std::size_t i = 0; i < stage.lights().size(); ++i) {
         const StageLight& light = stage.lights()[i];
@@ -236,7 +236,7 @@ void show_marks(const ViewState& state, const Stage& stage, const shadows::View&
     show_bounds(list, state, stage, size_px);
     show_selected(list, state, stage, view, size_px);
     show_probe(list, state, stage, view, size_px);
-    show_lights(list, state, stage, view, size_px);
+    show_handles(list, state, stage, view, size_px);
     show_hints(list, state, stage, size_px);
 }
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
+#include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double milliseconds_since(Clock::time_point start) {
+double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
@@ -71,7 +74,7 @@ render::RendererDesc Stage::renderer_desc(const glm::uvec2& size_px) const {
 }
 
 Status Stage::set_device(gpu::Device& device, const glm::uvec2& size_px) {
-    renderer_.reset();
+    drop_device();
     device_ = &device;
     auto renderer = render::Renderer::create(device, renderer_desc(size_px));
     if (!renderer) return forward_error(renderer);
@@ -80,8 +83,14 @@ Status Stage::set_device(gpu::Device& device, const glm::uvec2& size_px) {
 }
 
 void Stage::drop_device() {
+    list_ = nullptr;
     renderer_.reset();
     device_ = nullptr;
+}
+
+void Stage::shadows_changed() {
+    list_ = nullptr;
+    system_.reset();
 }
 
 Status Stage::make_system() {
@@ -108,28 +117,28 @@ Status Stage::draw(const shadows::View& view, const glm::uvec2& size_px) {
     const auto start = Clock::now();
     const gpu::DeviceCounters before = device_->counters();
 
-    std::vector<scene::Entity> unshadowed;
+    unshadowed_.clear();
     for (const StageLight& light : lights_) {
-        if (light.on && !light.casts) unshadowed.push_back(light.entity);
+        if (light.on && !light.casts) unshadowed_.push_back(light.entity);
     }
     if (options_.max_shadowed_lights) {
         const auto choice = render::choose_shadowed_lights(shot_.scene, shot_.bounds, view,
                                                            *options_.max_shadowed_lights);
         for (const scene::Entity light : choice.unshadowed) {
-            if (std::ranges::find(unshadowed, light) == unshadowed.end()) {
-                unshadowed.push_back(light);
+            if (std::ranges::find(unshadowed_, light) == unshadowed_.end()) {
+                unshadowed_.push_back(light);
             }
         }
     }
     list_ = nullptr;
     auto frame = system_->begin_frame();
-    if (const Status submitted =
-            adapter_.submit(shot_.scene, frame, options_.cull_back, options_.near_caps, unshadowed);
+    if (const Status submitted = adapter_.submit(shot_.scene, frame, options_.cull_back,
+                                                 options_.near_caps, unshadowed_);
         !submitted) {
         return submitted;
     }
     list_ = &std::move(frame).finish(view);
-    if (const Status drawn = renderer_->render({shot_.scene, view, *list_, {}, unshadowed});
+    if (const Status drawn = renderer_->render({shot_.scene, view, *list_, {}, unshadowed_});
         !drawn) {
         return drawn;
     }
@@ -140,8 +149,8 @@ Status Stage::draw(const shadows::View& view, const glm::uvec2& size_px) {
     figures_.detect_ms = list_->stats.detect_ms;
     figures_.build_ms = list_->stats.build_ms;
     figures_.record_ms = renderer_->times().record_ms;
-    figures_.device_ms = renderer_->times().submit_ms + milliseconds_since(waiting);
-    figures_.frame_ms = milliseconds_since(start);
+    figures_.device_ms = renderer_->times().submit_ms + ms_since(waiting);
+    figures_.frame_ms = ms_since(start);
     figures_.upload_bytes = after.uploaded_bytes - before.uploaded_bytes;
     figures_.draw_calls = after.draw_calls - before.draw_calls;
     figures_.shadows = list_->stats;
@@ -195,16 +204,18 @@ void Stage::show_ground(bool shown) {
     // A little below, so that a floor of the scene's own stays on top.
     const scene::LocalTransform local{
         .translation = {middle.x, shot_.bounds.min.y - 5e-4 * size_m, middle.z}};
-    const auto material = static_cast<std::uint32_t>(shot_.scene.materials.size());
-    scene::Material& stone = shot_.scene.materials.emplace_back();
-    stone.name = "ground";
-    stone.base_color = {0.42F, 0.42F, 0.43F, 1.0F};
-    stone.roughness = 0.95F;
+    if (!ground_material_) {
+        ground_material_ = static_cast<std::uint32_t>(shot_.scene.materials.size());
+        scene::Material& stone = shot_.scene.materials.emplace_back();
+        stone.name = "ground";
+        stone.base_color = {0.42F, 0.42F, 0.43F, 1.0F};
+        stone.roughness = 0.95F;
+    }
     const auto side_m = static_cast<float>(4.0 * size_m);
     ground_ = shot_.scene.create_node("ground", local);
     registry.emplace<scene::MeshInstance>(
-        *ground_,
-        std::make_shared<const scene::Mesh>(scene::make_plane(side_m, side_m, 1, material)));
+        *ground_, std::make_shared<const scene::Mesh>(
+                      scene::make_plane(side_m, side_m, 1, *ground_material_)));
     registry.emplace<scene::Receiver>(*ground_);
 }
 
@@ -243,10 +254,17 @@ Result<std::optional<Probe>> Stage::probe(const Ray& ray) {
                                         : glm::dvec3(light->position_world) - hit->point_world;
         // On the side that is seen, which may be another one than the light's.
         const glm::dvec3 point = hit->point_world + hit->normal_world * lift_m;
-        probe.answers.push_back({.light = i,
-                                 .exposure = queries_.at(*light, point),
-                                 .faces_away = glm::dot(to_light, hit->normal_world) <= 0.0,
-                                 .surfaces = queries_.surfaces_between(*light, point)});
+        Probe::Answer answer{.light = i,
+                             .exposure = queries_.at(*light, point),
+                             .faces_away = glm::dot(to_light, hit->normal_world) <= 0.0,
+                             .surfaces = queries_.surfaces_between(*light, point)};
+        if (std::ranges::find(unshadowed_, lights_[i].entity) != unshadowed_.end()) {
+            answer.surfaces = 0;
+            if (answer.exposure == shadows::Exposure::Shadowed) {
+                answer.exposure = shadows::Exposure::Lit;
+            }
+        }
+        probe.answers.push_back(answer);
     }
     return std::optional<Probe>(std::move(probe));
 }

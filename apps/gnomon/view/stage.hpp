@@ -4,9 +4,11 @@
 // while it is looked at. It has no window: tests draw it as the viewer does.
 #pragma once
 
-#include <map>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -70,14 +72,16 @@ public:
     [[nodiscard]] Status draw(const shadows::View& view, const glm::uvec2& size_px);
     [[nodiscard]] gpu::TextureId picture() const;
     [[nodiscard]] const FrameFigures& figures() const { return figures_; }
-    /// Of the last draw(); good until the next one.
+    /// Of the last draw(), where has_drawn(); good until the next one.
     [[nodiscard]] const shadows::DrawList& draw_list() const { return *list_; }
+    /// Whether picture() and draw_list() hold anything: not after shadows_changed(), set_device()
+    /// or drop_device(), until the next draw().
     [[nodiscard]] bool has_drawn() const { return list_ != nullptr; }
 
     /// Technique, strategy, savings, debug views, culling, samples: what may be changed between
     /// frames. Call shadows_changed() after a change to what the shadow system is made with.
     [[nodiscard]] RenderOptions& options() { return options_; }
-    void shadows_changed() { system_.reset(); }
+    void shadows_changed();
 
     [[nodiscard]] const Shot& shot() const { return shot_; }
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
@@ -90,9 +94,14 @@ public:
     [[nodiscard]] glm::dvec3 handle_of(const StageLight& light) const;
 
     /// A floor below everything, for models that have nothing to cast a shadow on. Receives, and
-    /// casts none. Nothing happens where the scene is empty.
+    /// casts none. Nothing happens where the scene is empty. Its entity goes with it: see
+    /// is_there().
     void show_ground(bool shown);
     [[nodiscard]] bool has_ground() const { return ground_.has_value(); }
+    /// Whether an entity that was picked is still part of the scene.
+    [[nodiscard]] bool is_there(scene::Entity entity) const {
+        return shot_.scene.registry.valid(entity);
+    }
 
     /// Which of the scene's animations are played; places in Scene::animations.
     void play(std::vector<std::size_t> animations) { shot_.animations = std::move(animations); }
@@ -105,6 +114,8 @@ public:
                               const glm::dmat4& motion_world);
 
     [[nodiscard]] std::optional<Hit> pick(const Ray& ray) { return picker_.pick(shot_.scene, ray); }
+    /// Of the lights as the last draw() had them: one that cast no shadow then lights whatever it
+    /// reaches.
     [[nodiscard]] Result<std::optional<Probe>> probe(const Ray& ray);
     /// What is moved where this is dragged: of a skinned mesh, whose own pose has no say, the node
     /// above all its joints.
@@ -129,8 +140,10 @@ private:
     gpu::Device* device_ = nullptr;
     std::optional<render::Renderer> renderer_;
     std::optional<scene::Entity> ground_;
-    bool upload_due_ = false;                  // meshes came or went
-    const shadows::DrawList* list_ = nullptr;  // the system's
+    std::optional<std::uint32_t> ground_material_;  // stays when the ground goes
+    std::vector<scene::Entity> unshadowed_;         // lights of the last draw()
+    bool upload_due_ = false;                       // meshes came or went
+    const shadows::DrawList* list_ = nullptr;       // the system's
     FrameFigures figures_;
 };
 

@@ -2,10 +2,12 @@
 #include "view/viewer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,6 +27,8 @@ constexpr double scripted_frame_s = 1.0 / 60.0;
 constexpr float font_px = 15.0F;
 /// How long to sleep where nothing happens and nothing plays.
 constexpr double idle_wait_s = 0.5;
+/// A device that is lost as often without a frame between will be lost again.
+constexpr int most_losses = 3;
 constexpr std::array<std::string_view, 3> commands{"size", "backend", "screenshot"};
 
 std::optional<window::Backend> backend_named(std::string_view name) {
@@ -95,22 +99,35 @@ Status Viewer::attach() {
     return {};
 }
 
+// Fails where no device is left to go on with. Otherwise window_.backend() says whose it is: the
+// one before where this one cannot take over, and the note says why.
 Status Viewer::exchange(window::Backend backend) {
-    stage_.drop_device();
-    ui_pass_.reset();
-    const Status opened = window_.reopen(backend);
+    const window::Backend before = window_.backend();
+    const auto reopen = [&](window::Backend wanted) {
+        stage_.drop_device();
+        ui_pass_.reset();
+        return window_.reopen(wanted);
+    };
+    Status opened = reopen(backend);
     if (!opened && !window_.has_device()) return opened;
-    if (const Status attached = attach(); !attached) return attached;
+    Status attached = attach();
+    if (!attached && attached.error().code != ErrorCode::DeviceLost &&
+        window_.backend() != before) {
+        // It has windows, but cannot draw this scene in them.
+        opened = std::exchange(attached, Status());
+        if (const Status back = reopen(before); !back) return opened;
+        attached = attach();
+    }
+    if (!attached) return attached;
     state_.shadow_times.clear();
     state_.frame_times.clear();
-    state_.say(opened ? state_.adapter : opened.error().message);
+    state_.say(opened ? state_.adapter : one_line(opened.error().message));
     return {};
 }
 
-// Takes the stage on: its device's part, its camera, its animations.
-Status Viewer::show(Stage stage, const std::string& source) {
+// Takes the stage on, its camera, its animations; not the device.
+void Viewer::show(Stage stage, const std::string& source) {
     stage_ = std::move(stage);
-    if (const Status attached = attach(); !attached) return attached;
     const RenderOptions& asked = stage_.options();
     const Shot& shot = stage_.shot();
     camera_ = OrbitCamera(shot.camera, shot.world_from_camera, shot.near_m, shot.bounds);
@@ -129,10 +146,10 @@ Status Viewer::show(Stage stage, const std::string& source) {
         stage_.play(scene::find_animations(shot.scene));
     }
     window_.set_title(fmt::format("{} - gnomon", one_line(source)));
-    return {};
 }
 
-// A scene that cannot be read is said so in the window, where the one before stays.
+// A scene that cannot be read, or that the device cannot hold, is said so in the window, where the
+// one before stays.
 Status Viewer::load(const std::string& source) {
     RenderOptions options = stage_.options();
     options.scene = source;
@@ -153,7 +170,14 @@ Status Viewer::load(const std::string& source) {
         return {};
     }
     stage->show_ground(ground);
-    if (const Status shown = show(std::move(*stage), source); !shown) return shown;
+    const Status held = stage->set_device(window_.device(), glm::max(size_px_, glm::uvec2(1)));
+    if (!held && held.error().code != ErrorCode::DeviceLost) {
+        state_.say(one_line(held.error().message));
+        return {};
+    }
+    show(std::move(*stage), source);
+    // The next device gets it.
+    if (!held) return held;
     if (!stage_.shot().scene.messages.empty()) {
         state_.say(one_line(stage_.shot().scene.messages.front()));
     }
@@ -163,7 +187,8 @@ Status Viewer::load(const std::string& source) {
 Status Viewer::start() {
     size_px_ = window_.size_px();
     stage_.show_ground(options_.ground);
-    return show(std::move(stage_), options_.render.scene);
+    show(std::move(stage_), options_.render.scene);
+    return attach();
 }
 
 Status Viewer::obey(const std::string& command) {
@@ -189,10 +214,17 @@ Status Viewer::obey(const std::string& command) {
         return fail(ErrorCode::InvalidInput,
                     fmt::format("The script's command \"{}\": there is no such backend.", command));
     }
-    return exchange(*backend);
+    if (const Status exchanged = exchange(*backend); !exchanged) return exchanged;
+    if (window_.backend() == *backend) return {};
+    return fail(ErrorCode::Unsupported,
+                fmt::format("The script's command \"{}\": {}", command, state_.note));
 }
 
 Status Viewer::save(const std::filesystem::path& path) {
+    if (!stage_.has_drawn()) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("{}: nothing has been drawn yet.", path.string()));
+    }
     const auto bytes = window_.device().read_texture(stage_.picture());
     if (!bytes) return forward_error(bytes);
     OutputFiles files;
@@ -230,6 +262,7 @@ Status Viewer::draw(const input::Input& input, double dt_s) {
     view_ = camera_.view(canvas());
     if (const Status handled = handle_mouse(input); !handled) return handled;
     if (const Status shown = show_panel(state_, stage_); !shown) return shown;
+    forget_what_is_gone();
     view_ = camera_.view(canvas());
     if (const Status drawn = stage_.draw(view_, size_px_); !drawn) return drawn;
     state_.add_times(stage_.figures());
@@ -253,8 +286,9 @@ Status Viewer::frame(const input::Input& input, double dt_s) {
     for (const std::string& command : input.commands) {
         if (const Status done = obey(command); !done) return done;
     }
-    size_px_ = window_.size_px();
-    if (size_px_.x == 0 || size_px_.y == 0) return {};
+    const glm::uvec2 size_px = window_.size_px();
+    if (size_px.x == 0 || size_px.y == 0) return {};
+    size_px_ = size_px;
     if (!ui_.wants_keyboard()) {
         if (const Status handled = handle_keys(input); !handled) return handled;
     }
@@ -276,6 +310,7 @@ bool Viewer::has_work(const input::Input& live) const {
 
 Status Viewer::run() {
     Clock::time_point before = Clock::now();
+    int losses = 0;  // one after the other
     while (!is_over()) {
         const bool busy = has_work(window_.input());
         const input::Input& live = window_.poll(busy ? 0.0 : idle_wait_s);
@@ -295,7 +330,11 @@ Status Viewer::run() {
         const double dt_s = std::min(0.1, std::chrono::duration<double>(now - before).count());
         before = now;
         Status done = frame(input, script_ || options_.frames ? scripted_frame_s : dt_s);
-        if (!done && done.error().code == ErrorCode::DeviceLost) done = exchange(window_.backend());
+        if (done) {
+            losses = 0;
+        } else if (done.error().code == ErrorCode::DeviceLost && ++losses < most_losses) {
+            done = exchange(window_.backend());
+        }
         if (!done) return done;
         ++frames_;
     }

@@ -3,6 +3,8 @@
 // Viewer: the window, the stage in it, and what mouse and keys do.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -50,7 +52,7 @@ private:
     // viewer.cpp
     [[nodiscard]] Status attach();
     [[nodiscard]] Status exchange(window::Backend backend);
-    [[nodiscard]] Status show(Stage stage, const std::string& source);
+    void show(Stage stage, const std::string& source);
     [[nodiscard]] Status load(const std::string& source);
     [[nodiscard]] Status obey(const std::string& command);
     [[nodiscard]] Status grant_wishes();
@@ -65,6 +67,7 @@ private:
     [[nodiscard]] Status drag_object(const input::Input& input);
     void end_drag();
     void select_next_light();
+    void forget_what_is_gone();
 
     ViewOptions options_;
     window::Window window_;
@@ -75,8 +78,8 @@ private:
     std::optional<ui::UiPass> ui_pass_;
     ViewState state_;
     OrbitCamera camera_;
-    shadows::View view_;  // of this frame
-    glm::uvec2 size_px_{0, 0};
+    shadows::View view_;        // of this frame
+    glm::uvec2 size_px_{0, 0};  // of the picture; while the window is minimised, of the one before
     std::optional<Drag> drag_;
     bool cursor_seen_ = false;
     std::uint64_t frames_ = 0;
