@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 
 #include <gnomon/input/input.hpp>
 
@@ -42,6 +43,7 @@ std::optional<MouseButton> mouse_button_named(std::string_view name) {
 
 void Input::begin_frame() {
     keys_pressed_.reset();
+    keys_repeated_.reset();
     buttons_pressed_.reset();
     buttons_released_.reset();
     cursor_before_px_ = cursor_px_;
@@ -55,6 +57,10 @@ void Input::begin_frame() {
 void Input::press(Key key) {
     keys_down_.set(at(key));
     keys_pressed_.set(at(key));
+}
+
+void Input::repeat(Key key) {
+    if (is_down(key)) keys_repeated_.set(at(key));
 }
 
 void Input::release(Key key) { keys_down_.reset(at(key)); }
@@ -78,9 +84,10 @@ void Input::release_all() {
 }
 
 bool Input::anything_happened() const {
-    return keys_pressed_.any() || buttons_pressed_.any() || buttons_released_.any() ||
-           cursor_motion_px() != glm::dvec2(0.0) || scroll != glm::dvec2(0.0) || !text.empty() ||
-           !dropped_files.empty() || !commands.empty() || redraw_requested || close_requested;
+    return keys_pressed_.any() || keys_repeated_.any() || buttons_pressed_.any() ||
+           buttons_released_.any() || cursor_motion_px() != glm::dvec2(0.0) ||
+           scroll != glm::dvec2(0.0) || !text.empty() || !dropped_files.empty() ||
+           !commands.empty() || redraw_requested || close_requested;
 }
 
 }  // namespace gnomon::input

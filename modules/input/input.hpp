@@ -41,7 +41,7 @@ inline constexpr std::size_t mouse_button_count = 3;
 /// "left", "right", "middle".
 [[nodiscard]] std::optional<MouseButton> mouse_button_named(std::string_view name);
 
-/// The first gamepad, in the layout of an Xbox controller.
+/// A gamepad, in the layout of an Xbox controller.
 struct Gamepad {
     glm::vec2 left_stick{0.0F};   ///< x to the right, y down; -1 .. 1, no dead zone taken out
     glm::vec2 right_stick{0.0F};  ///< likewise
@@ -61,6 +61,8 @@ public:
 
     // Events, as a window or a script reports them.
     void press(Key key);
+    /// The desktop says once more that a key is held. Of one that is not, nothing.
+    void repeat(Key key);
     void release(Key key);
     void press(MouseButton button);
     void release(MouseButton button);
@@ -69,9 +71,10 @@ public:
     void release_all();
 
     [[nodiscard]] bool is_down(Key key) const { return keys_down_[at(key)]; }
-    /// Went down this frame, once more for each repeat of a key that is held; also where it was let
-    /// go within the same frame.
+    /// Went down this frame; also where it was let go within the same frame.
     [[nodiscard]] bool was_pressed(Key key) const { return keys_pressed_[at(key)]; }
+    /// Is held, and the desktop repeated it this frame: what steps and deletes goes on.
+    [[nodiscard]] bool was_repeated(Key key) const { return keys_repeated_[at(key)]; }
     [[nodiscard]] bool is_down(MouseButton button) const { return buttons_down_[at(button)]; }
     [[nodiscard]] bool was_pressed(MouseButton button) const {
         return buttons_pressed_[at(button)];
@@ -89,7 +92,8 @@ public:
     [[nodiscard]] const glm::dvec2& cursor_px() const { return cursor_px_; }
     /// How far it moved this frame.
     [[nodiscard]] glm::dvec2 cursor_motion_px() const { return cursor_px_ - cursor_before_px_; }
-    /// Whether anything at all happened this frame; what is merely held is nothing.
+    /// Whether anything at all happened this frame; what is merely held is nothing, a gamepad's
+    /// sticks and buttons included, which are levels alone.
     [[nodiscard]] bool anything_happened() const;
 
     glm::dvec2 scroll{0.0};  ///< this frame's, in notches: y > 0 is away from the user
@@ -98,7 +102,7 @@ public:
     std::vector<std::string> commands;  ///< of a script: what only the program understands
     bool redraw_requested = false;      ///< what the window showed has been lost
     bool close_requested = false;       ///< stays
-    std::optional<Gamepad> gamepad;     ///< now; none: none is connected
+    std::optional<Gamepad> gamepad;     ///< the first one, now; none: none is connected
 
 private:
     [[nodiscard]] static std::size_t at(Key key) { return static_cast<std::size_t>(key); }
@@ -106,7 +110,7 @@ private:
         return static_cast<std::size_t>(button);
     }
 
-    std::bitset<key_count> keys_down_, keys_pressed_;
+    std::bitset<key_count> keys_down_, keys_pressed_, keys_repeated_;
     std::bitset<mouse_button_count> buttons_down_, buttons_pressed_, buttons_released_;
     glm::dvec2 cursor_px_{0.0};
     glm::dvec2 cursor_before_px_{0.0};

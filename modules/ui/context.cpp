@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -41,6 +42,11 @@ constexpr std::array<std::pair<ImGuiKey, Key>, 20> mapped_keys{{
     {ImGuiKey_Y, Key::Y},
     {ImGuiKey_Z, Key::Z},
 }};
+
+// What moves the cursor in a text, or takes characters away.
+constexpr std::array repeating_keys{Key::Left,   Key::Right,    Key::Up,     Key::Down,
+                                    Key::Home,   Key::End,      Key::PageUp, Key::PageDown,
+                                    Key::Delete, Key::Backspace};
 
 // Basic Latin and Latin-1, Latin Extended-A, general punctuation, arrows, mathematical operators.
 constexpr std::array<ImWchar, 11> glyph_ranges{0x20,   0xFF,   0x100,  0x17F,  0x2010, 0x2044,
@@ -113,6 +119,10 @@ void Context::begin_frame(const input::Input& input, const glm::uvec2& size_px, 
     for (std::size_t i = 0; i < input::key_count; ++i) {
         const auto key = static_cast<Key>(i);
         io.KeysDown[i] = input.is_down(key) || input.was_pressed(key);
+    }
+    // Dear ImGui repeats by its own clock what is held; the desktop's repeats are presses to it.
+    for (const Key key : repeating_keys) {
+        if (input.was_repeated(key)) io.KeysDownDuration[static_cast<std::size_t>(key)] = -1.0F;
     }
     io.KeyShift = input.shift();
     io.KeyCtrl = input.control();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "internal/events.hpp"
 
-#include <algorithm>
-#include <array>
+#include <cstddef>
+#include <optional>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -73,10 +73,10 @@ input::Input& input_of(GLFWwindow* window) {
 void on_key(GLFWwindow* window, int key, int, int action, int) {
     const auto known = key_of(key);
     if (!known) return;
-    if (action == GLFW_RELEASE) {
-        input_of(window).release(*known);
-    } else {
-        input_of(window).press(*known);
+    switch (action) {
+        case GLFW_PRESS: input_of(window).press(*known); break;
+        case GLFW_REPEAT: input_of(window).repeat(*known); break;
+        default: input_of(window).release(*known);
     }
 }
 
@@ -127,7 +127,11 @@ void report_events(GLFWwindow* window, input::Input& input) {
 
 std::optional<input::Gamepad> read_gamepad() {
     GLFWgamepadstate state;
-    if (glfwGetGamepadState(GLFW_JOYSTICK_1, &state) == GLFW_FALSE) return std::nullopt;
+    // Other joysticks, or what only looks like one, may come before the first gamepad.
+    int joystick = GLFW_JOYSTICK_1;
+    while (glfwGetGamepadState(joystick, &state) == GLFW_FALSE) {
+        if (++joystick > GLFW_JOYSTICK_LAST) return std::nullopt;
+    }
     input::Gamepad pad;
     pad.left_stick = {state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]};
     pad.right_stick = {state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X],

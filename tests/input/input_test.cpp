@@ -20,6 +20,23 @@ TEST(Input, a_press_is_an_event_once_and_a_level_until_released) {
     EXPECT_FALSE(input.is_down(Key::W));
 }
 
+TEST(Input, a_repeat_is_no_press) {
+    Input input;
+    input.begin_frame();
+    input.repeat(Key::Left);
+    EXPECT_FALSE(input.anything_happened()) << "it is not held";
+    input.press(Key::Left);
+    EXPECT_FALSE(input.was_repeated(Key::Left));
+    input.begin_frame();
+    input.repeat(Key::Left);
+    EXPECT_TRUE(input.was_repeated(Key::Left));
+    EXPECT_FALSE(input.was_pressed(Key::Left));
+    EXPECT_TRUE(input.anything_happened());
+    input.begin_frame();
+    EXPECT_FALSE(input.was_repeated(Key::Left));
+    EXPECT_TRUE(input.is_down(Key::Left));
+}
+
 TEST(Input, a_click_within_one_frame_is_seen) {
     Input input;
     input.begin_frame();

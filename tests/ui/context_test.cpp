@@ -69,6 +69,13 @@ TEST_F(UiContext, what_is_typed_arrives) {
     input.press(Key::Backspace);
     frame();
     EXPECT_STREQ(text, "gnomo");
+    frame();
+    EXPECT_STREQ(text, "gnomo");
+    input.repeat(Key::Backspace);
+    frame();
+    EXPECT_STREQ(text, "gnom");
+    frame();
+    EXPECT_STREQ(text, "gnom");
 }
 
 TEST_F(UiContext, a_frame_that_was_given_up_does_not_hinder_the_next) {

@@ -50,7 +50,8 @@ Status Viewer::handle_keys(const input::Input& input) {
     }
     if (stage_.shot().scene.animations.empty()) return {};
     if (pressed(Key::Space)) state_.playing = !state_.playing;
-    const double step = (pressed(Key::Right) ? step_s : 0.0) - (pressed(Key::Left) ? step_s : 0.0);
+    const auto stepped = [&](Key key) { return pressed(key) || input.was_repeated(key); };
+    const double step = (stepped(Key::Right) ? step_s : 0.0) - (stepped(Key::Left) ? step_s : 0.0);
     if (step == 0.0) return {};
     state_.playing = false;
     state_.time_s += step;
