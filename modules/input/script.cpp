@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +16,9 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r";
 constexpr std::uint64_t most_frames = 1'000'000;
+/// Farther than any screen reaches, in pixels; notches of a wheel in one frame.
+constexpr double farthest_px = 1e6;
+constexpr double most_notches = 1000.0;
 
 std::string_view trimmed(std::string_view text) {
     const auto begin = text.find_first_not_of(blanks);
@@ -26,6 +31,17 @@ std::string_view take_word(std::string_view& text) {
     const std::string_view word = text.substr(0, text.find_first_of(blanks));
     text = trimmed(text.substr(word.size()));
     return word;
+}
+
+// Without its comment: a '#' within a word, as in a file's name, begins none.
+std::string_view without_comment(std::string_view line) {
+    for (std::size_t at = line.find('#'); at != std::string_view::npos;
+         at = line.find('#', at + 1)) {
+        if (at == 0 || blanks.find(line[at - 1]) != std::string_view::npos) {
+            return line.substr(0, at);
+        }
+    }
+    return line;
 }
 
 template <class Number>
@@ -88,7 +104,8 @@ Status Script::read_press(const Line& line) {
     return {};
 }
 
-Status Script::read(const Line& line, std::span<const std::string_view> commands) {
+Status Script::read(const Line& line, std::span<const std::string_view> commands,
+                    const CommandCheck& check) {
     Event event{.frame = line.frame};
     if (line.word == "press" || line.word == "release" || line.word == "tap" ||
         line.word == "click") {
@@ -101,10 +118,18 @@ Status Script::read(const Line& line, std::span<const std::string_view> commands
         if (!parse_finite(x, event.numbers.x) || !parse_finite(rest, event.numbers.y)) {
             return line.wrong(fmt::format("move takes two numbers, not \"{}\".", line.rest));
         }
+        if (std::max(std::abs(event.numbers.x), std::abs(event.numbers.y)) > farthest_px) {
+            return line.wrong(fmt::format("move to \"{}\": each is at most {} pixels from 0.",
+                                          line.rest, static_cast<int>(farthest_px)));
+        }
     } else if (line.word == "scroll") {
         event.kind = Kind::Scroll;
         if (!parse_finite(line.rest, event.numbers.y)) {
             return line.wrong(fmt::format("scroll takes a number, not \"{}\".", line.rest));
+        }
+        if (std::abs(event.numbers.y) > most_notches) {
+            return line.wrong(fmt::format("scroll by \"{}\": at most {} notches either way.",
+                                          line.rest, static_cast<int>(most_notches)));
         }
     } else if (line.word == "type" || line.word == "drop") {
         event.kind = line.word == "type" ? Kind::Type : Kind::Drop;
@@ -116,6 +141,11 @@ Status Script::read(const Line& line, std::span<const std::string_view> commands
         event.kind = Kind::Command;
         event.text =
             line.rest.empty() ? std::string(line.word) : fmt::format("{} {}", line.word, line.rest);
+        if (check) {
+            if (const Status right = check(event.text); !right) {
+                return line.wrong(right.error().message);
+            }
+        }
     } else {
         std::vector<std::string_view> known{"move", "press",  "release", "tap",  "click",
                                             "type", "scroll", "drop",    "close"};
@@ -128,12 +158,13 @@ Status Script::read(const Line& line, std::span<const std::string_view> commands
 }
 
 Result<Script> Script::parse(std::string_view text, std::string_view file_name,
-                             std::span<const std::string_view> commands) {
+                             std::span<const std::string_view> commands,
+                             const CommandCheck& check) {
     Script script;
     std::uint64_t before = 0;
     for (std::size_t number = 1; !text.empty(); ++number) {
         const std::size_t end = text.find('\n');
-        std::string_view rest = trimmed(text.substr(0, std::min(end, text.find('#'))));
+        std::string_view rest = trimmed(without_comment(text.substr(0, end)));
         text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
         if (rest.empty()) continue;
         Line line{.place = fmt::format("{}:{}", file_name, number)};
@@ -147,7 +178,8 @@ Result<Script> Script::parse(std::string_view text, std::string_view file_name,
         before = line.frame;
         line.word = take_word(rest);
         line.rest = rest;
-        if (const Status read = script.read(line, commands); !read) return forward_error(read);
+        if (const Status read = script.read(line, commands, check); !read)
+            return forward_error(read);
     }
     std::ranges::stable_sort(script.events_, {}, &Event::frame);
     return script;

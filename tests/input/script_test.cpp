@@ -64,6 +64,30 @@ TEST(Script, hands_a_programs_own_words_to_it) {
     EXPECT_THAT(input.commands, ElementsAre("size 800x600"));
 }
 
+TEST(Script, a_hash_within_a_word_begins_no_comment) {
+    Script script = parsed("0 drop a#1.glb # and a comment\n#1 close\n1 drop b\t#2\n");
+    Input input;
+    script.play(0, input);
+    EXPECT_THAT(input.dropped_files, ElementsAre("a#1.glb"));
+    input.begin_frame();
+    script.play(1, input);
+    EXPECT_THAT(input.dropped_files, ElementsAre("b"));
+    EXPECT_FALSE(input.close_requested);
+}
+
+TEST(Script, a_programs_own_words_may_be_refused_with_their_line) {
+    constexpr std::array<std::string_view, 1> commands{"size"};
+    const auto check = [](std::string_view command) -> Status {
+        if (command == "size 1x1") return {};
+        return fail(ErrorCode::InvalidInput, std::string(command) + " is no size.");
+    };
+    EXPECT_TRUE(Script::parse("0 size 1x1", "a.input", commands, check));
+    const auto refused = Script::parse("0 size 1x1\n2 size big", "a.input", commands, check);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
+    EXPECT_EQ(refused.error().message, "a.input:2: size big is no size.");
+}
+
 TEST(Script, says_what_is_wrong_and_where) {
     const auto message = [](std::string_view text) {
         const auto script = Script::parse(text, "a.input");
@@ -77,6 +101,11 @@ TEST(Script, says_what_is_wrong_and_where) {
     EXPECT_THAT(message("0 jump 3"), HasSubstr("there is no event \"jump\"; there are move, "));
     EXPECT_EQ(message("0 move 3"), "a.input:1: move takes two numbers, not \"3\".");
     EXPECT_EQ(message("0 move 3 nan"), "a.input:1: move takes two numbers, not \"3 nan\".");
+    EXPECT_EQ(message("0 move 3 -1000001"),
+              "a.input:1: move to \"3 -1000001\": each is at most 1000000 pixels from 0.");
+    EXPECT_EQ(message("0 scroll -1001"),
+              "a.input:1: scroll by \"-1001\": at most 1000 notches either way.");
+    EXPECT_TRUE(Script::parse("0 move -1e6 1e6\n0 scroll 1000", "a.input"));
     EXPECT_THAT(message("0 press spacebar"), HasSubstr("\"spacebar\" is neither"));
     EXPECT_EQ(message("0 drop"), "a.input:1: drop what?");
     EXPECT_THAT(message("1000001 close"), HasSubstr("no frame"));

@@ -3,7 +3,10 @@
 // gnomon view as a user runs it, with scripts for hands, on both backends.
 #include <gmock/gmock.h>
 
+#include <cstddef>
 #include <cstdlib>
+#include <optional>
+#include <string>
 
 #include <gnomon/window/window.hpp>
 
@@ -23,10 +26,6 @@ using testing::UnorderedElementsAre;
 
 class View : public ProgramTest {
 protected:
-    void SetUp() override {
-        ProgramTest::SetUp();
-        if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "DISPLAY is not set";
-    }
     static Arguments view(const std::string& scene, const Arguments& more) {
         return joined({"view", scene, "--size", "320x240", "--no-panel"}, more);
     }
@@ -46,9 +45,11 @@ class ViewOn : public View, public testing::WithParamInterface<window::Backend> 
 protected:
     void SetUp() override {
         View::SetUp();
-        if (IsSkipped()) return;
-        const std::string name(window::name_of(GetParam()));
-        const auto opened = window::Window::open({.size_px = {64, 64}, .backend = GetParam()});
+        skip_without(GetParam());
+    }
+    static void skip_without(window::Backend backend) {
+        const std::string name(window::name_of(backend));
+        const auto opened = window::Window::open({.size_px = {64, 64}, .backend = backend});
         if (!opened && gnomon::test::is_required(name)) FAIL() << opened.error().message;
         if (!opened) GTEST_SKIP() << opened.error().message;
     }
@@ -73,7 +74,7 @@ TEST_P(ViewOn, shows_what_render_draws) {
     EXPECT_LT(difference(shown, image("b.png"), 1).pixels, 800U);
 }
 
-TEST_P(ViewOn, drags_a_light_a_caster_and_the_camera) {
+TEST_P(ViewOn, drags_a_caster_and_the_camera) {
     const std::string before = "2 screenshot before.png\n3 screenshot again.png\n";
     run_well(on(scripted("builtin:pillars",
                          before + "4 move 160 110\n"
@@ -118,6 +119,10 @@ TEST_P(ViewOn, a_script_gives_the_same_pictures_again) {
 
 TEST_P(ViewOn, exchanges_the_backend_while_it_runs) {
     if (window::backends().size() < 2) GTEST_SKIP() << "There is one backend in this build.";
+    skip_without(window::Backend::Gl);
+    skip_without(window::Backend::Vk);
+    if (IsSkipped()) return;
+    // Each "backend" ends the run where the exchange fails.
     run_well(on(scripted("builtin:pillars",
                          "2 screenshot one.png\n3 tap B\n6 screenshot two.png\n"
                          "7 backend gl\n8 backend vk\n9 backend gl\n11 screenshot three.png\n",
@@ -131,6 +136,7 @@ TEST_P(ViewOn, exchanges_the_backend_while_it_runs) {
     };
     EXPECT_EQ(difference(upper_part("one.png"), upper_part("two.png"), 2).pixels, 0U);
     EXPECT_EQ(difference(upper_part("one.png"), upper_part("three.png"), 2).pixels, 0U);
+    EXPECT_GT(difference(image("one.png"), image("two.png"), 20).pixels, 100U) << "B: the note";
 }
 
 TEST_P(ViewOn, takes_dropped_files_and_refuses_bad_ones) {
@@ -167,11 +173,12 @@ TEST_P(ViewOn, follows_the_windows_size) {
     EXPECT_GT(difference(image("narrow.png"), image("panel.png"), 20).pixels, 20000U);
 }
 
-TEST_P(ViewOn, every_key_does_something_and_none_harm) {
+TEST_P(ViewOn, keys_do_no_harm_and_P_leaves_a_picture) {
     std::string script;
     int frame = 0;
-    for (const char* key : {"1", "2", "3", "4", "5",     "6",    "Tab",   "F1", "Q", "T",
-                            "R", "C", "L", "F", "Space", "Left", "Right", "F5", "P", "Tab"}) {
+    for (const char* key :
+         {"1", "2", "3",     "4",    "5",     "6",  "Tab", "F1",  "Q", "T", "R",   "C",
+          "L", "F", "Space", "Left", "Right", "F5", "P",   "Tab", "G", "G", "F11", "F11"}) {
         script += std::to_string(frame) + " tap " + key + "\n";
         ++frame;
     }
@@ -214,7 +221,19 @@ TEST_P(ViewOn, a_picture_of_nothing_is_refused) {
 INSTANTIATE_TEST_SUITE_P(Backends, ViewOn, testing::ValuesIn(window::backends()),
                          [](const auto& info) { return std::string(window::name_of(info.param)); });
 
+// There is no display to open one on, and that is not what it says.
 TEST_F(View, says_what_is_wrong_before_a_window_opens) {
+    struct NoDisplay {
+        NoDisplay() {
+            if (const char* now = std::getenv("DISPLAY")) before = now;
+            unsetenv("DISPLAY");
+        }
+        ~NoDisplay() {
+            if (before) setenv("DISPLAY", before->c_str(), 1);
+        }
+        std::optional<std::string> before;
+    };
+    const NoDisplay no_display;
     expect_refused({"view", "no-such-file.glb"}, {"no-such-file.glb"});
     expect_refused({"view", "builtin:nothing"}, {"nothing", "pillars"});
     expect_refused({"view", "builtin:knot", "--backend", "null"}, {"--backend", "null"});
@@ -226,8 +245,12 @@ TEST_F(View, says_what_is_wrong_before_a_window_opens) {
     expect_refused({"view", "builtin:knot", "--script", "bad.input"},
                    {"bad.input:2", "leap", "screenshot"});
     write("size.input", "0 size large\n");
-    expect_refused({"view", "builtin:knot", "--quiet", "--script", "size.input"}, {"large"});
-    EXPECT_THAT(files(), UnorderedElementsAre("bad.input", "size.input"));
+    expect_refused({"view", "builtin:knot", "--quiet", "--script", "size.input"},
+                   {"size.input:1", "large"});
+    write("backend.input", "0 close\n1 backend glide\n");
+    expect_refused({"view", "builtin:knot", "--quiet", "--script", "backend.input"},
+                   {"backend.input:2", "glide"});
+    EXPECT_THAT(files(), UnorderedElementsAre("backend.input", "bad.input", "size.input"));
 }
 
 }  // namespace

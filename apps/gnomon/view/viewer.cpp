@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <gnomon/core/expects.hpp>
+
 #include "files.hpp"
 #include "view/marks.hpp"
 #include "view/panel.hpp"
@@ -55,6 +57,20 @@ std::filesystem::path free_name(const std::string& stem) {
     }
 }
 
+// Of a script, when it is read.
+Status check_command(std::string_view command) {
+    const std::size_t blank = std::min(command.find(' '), command.size());
+    const std::string_view word = command.substr(0, blank);
+    const std::string_view rest = command.substr(std::min(blank + 1, command.size()));
+    if (word == "size") {
+        const auto size = parse_size(rest);
+        return size ? Status() : forward_error(size);
+    }
+    if (word != "backend" || backend_named(rest)) return {};
+    return fail(ErrorCode::InvalidInput,
+                fmt::format("\"{}\": there is no such backend in this build.", command));
+}
+
 Result<std::optional<input::Script>> read_script(const std::filesystem::path& path) {
     if (path.empty()) return std::optional<input::Script>();
     std::ifstream file(path, std::ios::binary);
@@ -63,7 +79,7 @@ Result<std::optional<input::Script>> read_script(const std::filesystem::path& pa
         return fail(ErrorCode::Io,
                     fmt::format("{}: the script cannot be read, or is empty.", path.string()));
     }
-    auto script = input::Script::parse(text.str(), path.string(), commands);
+    auto script = input::Script::parse(text.str(), path.string(), commands, check_command);
     if (!script) return forward_error(script);
     return std::optional(std::move(*script));
 }
@@ -210,10 +226,7 @@ Status Viewer::obey(const std::string& command) {
         return save(rest.empty() ? free_name(stem_of(state_.source)) : std::filesystem::path(rest));
     }
     const auto backend = backend_named(rest);
-    if (!backend) {
-        return fail(ErrorCode::InvalidInput,
-                    fmt::format("The script's command \"{}\": there is no such backend.", command));
-    }
+    GNOMON_EXPECTS(backend.has_value());  // check_command() saw it
     if (const Status exchanged = exchange(*backend); !exchanged) return exchanged;
     if (window_.backend() == *backend) return {};
     return fail(ErrorCode::Unsupported,
