@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -63,6 +68,7 @@ GLFWmonitor* monitor_of(const Place& place) {
     int most = 0;
     for (int i = 0; i < count; ++i) {
         const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        if (mode == nullptr) continue;
         int x = 0;
         int y = 0;
         glfwGetMonitorPos(monitors[i], &x, &y);
@@ -235,7 +241,7 @@ void Window::set_title(const std::string& title) {
 
 void Window::set_size(const glm::uvec2& size_px) {
     State& s = *state_;
-    if (s.window == nullptr) return;
+    if (s.window == nullptr || is_fullscreen()) return;
     const Place place = place_of(s.window);
     const glm::uvec2 now = this->size_px();
     // GLFW counts in the desktop's units.
@@ -252,6 +258,7 @@ void Window::set_fullscreen(bool fullscreen) {
         GLFWmonitor* monitor = monitor_of(*s.windowed);
         if (monitor == nullptr) return;
         const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+        if (mode == nullptr) return;  // it was just unplugged
         glfwSetWindowMonitor(s.window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
     } else {
         const Place place = s.windowed.value_or(Place{0, 0, 1280, 720});

@@ -68,7 +68,7 @@ public:
     /// the window goes to another monitor.
     [[nodiscard]] float content_scale() const;
 
-    /// Stays at its address; invalid after reopen() has failed.
+    /// Stays at its address, whose device reopen() exchanges. Only while has_device().
     [[nodiscard]] gpu::Device& device();
     [[nodiscard]] Backend backend() const;
     /// Shows a texture (TextureUsage::CopySrc, single-sampled colour, already sRGB-encoded),
@@ -82,11 +82,14 @@ public:
     /// for life; input that is held stays held. When it fails the backend before is tried again,
     /// and the error is returned all the same; only where that failed too, device() is invalid.
     [[nodiscard]] Status reopen(Backend backend);
+    /// False only after a reopen() that found neither backend.
     [[nodiscard]] bool has_device() const;
 
     void set_title(const std::string& title);
+    /// As far as the desktop agrees, and when it likes; nothing while it fills the screen.
     void set_size(const glm::uvec2& size_px);
-    /// Over the whole of the monitor that holds most of it, or back as it was.
+    /// Over the whole of the monitor that holds most of it, or back as it was. Nothing where there
+    /// is no monitor.
     void set_fullscreen(bool fullscreen);
     [[nodiscard]] bool is_fullscreen() const;
     /// Hidden and held within the window, so that motion never ends at an edge.

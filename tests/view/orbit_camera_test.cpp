@@ -68,6 +68,28 @@ TEST(OrbitCamera, zooms_by_a_tenth_a_notch_and_never_arrives) {
     EXPECT_TRUE(pixel_of(camera.view(plain), box.center(), plain.size_px));
 }
 
+TEST(OrbitCamera, an_orthographic_picture_stays_one_however_far_one_zooms) {
+    scene::Camera lens;
+    lens.projection =
+        scene::OrthographicCamera{.half_width_m = 4.0, .half_height_m = 3.0, .far_m = 1000.0};
+    OrbitCamera camera(lens, render::camera_pose({9.0, 6.0, 11.0}, box.center(), {0.0, 1.0, 0.0}),
+                       0.001, box);
+    const auto metres_of_60_px = [&] {
+        const Ray left = ray_through(camera.view(plain), {370.0, 300.0}, plain.size_px);
+        const Ray right = ray_through(camera.view(plain), {430.0, 300.0}, plain.size_px);
+        return glm::distance(left.origin_world, right.origin_world);
+    };
+    const double before = metres_of_60_px();
+    EXPECT_NEAR(before, 0.6, 1e-9);
+    for (int i = 0; i < 20; ++i) camera.zoom(1000.0);
+    EXPECT_GT(metres_of_60_px(), 1e-5 * before);
+    for (int i = 0; i < 20; ++i) camera.zoom(-1000.0);
+    EXPECT_GT(metres_of_60_px(), before);
+    EXPECT_LT(metres_of_60_px(), 1e5 * before);
+    camera.zoom(1.0);
+    EXPECT_LT(metres_of_60_px(), 1e5 * before);
+}
+
 TEST(OrbitCamera, frames_the_scene_in_what_the_panel_leaves_free) {
     for (const double covered : {0.0, 324.0}) {
         for (const bool orthographic : {false, true}) {

@@ -53,6 +53,20 @@ TEST(Ray, through_a_pixel_comes_back_to_it) {
     }
 }
 
+// Where a ray runs within the plane of a box's side, parallel to others: a corner's edge is hit.
+TEST_F(Picking, finds_what_a_ray_grazes_along_either_side) {
+    const scene::Entity square = add(scene::make_plane(2.0F, 2.0F), {});
+    for (const double x : {-1.0, 1.0}) {
+        for (const double z : {-1.0, 1.0}) {
+            const auto hit = picker.pick(scene, {{x, 2.0, z}, {0.0, -1.0, 0.0}});
+            ASSERT_TRUE(hit) << x << ' ' << z;
+            EXPECT_EQ(hit->entity, square);
+            EXPECT_DOUBLE_EQ(hit->distance_m, 2.0);
+        }
+    }
+    EXPECT_FALSE(picker.pick(scene, {{1.0 + 1e-9, 2.0, 0.0}, {0.0, -1.0, 0.0}}));
+}
+
 TEST_F(Picking, finds_the_nearest_whatever_its_pose) {
     add(scene::make_plane(20.0F, 20.0F), {});
     const scene::Entity near = add(scene::make_box({1.0F, 1.0F, 1.0F}),

@@ -69,8 +69,12 @@ void OrbitCamera::pan(const glm::dvec2& motion_px, const Canvas& canvas) {
 void OrbitCamera::zoom(double notches) {
     const double factor = std::pow(0.9, notches);
     if (auto* box = std::get_if<scene::OrthographicCamera>(&camera_.projection)) {
-        box->half_height_m *= factor;
-        box->half_width_m *= factor;
+        // What a file's camera shows may lie beyond the limits; it comes back from there.
+        const double before = box->half_height_m;
+        const double after = std::clamp(before * factor, std::min(before, 1e-3 * scene_m_),
+                                        std::max(before, 1e3 * scene_m_));
+        box->half_width_m *= after / before;
+        box->half_height_m = after;
         return;
     }
     const glm::dvec3 center = pivot();

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -114,10 +116,12 @@ bool choose(const char* label, const Names& names, int& chosen) {
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("silhouettes  ").x);
     if (!ImGui::BeginCombo(label, text(chosen))) return false;
     for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+        ImGui::PushID(i);  // names may be equal
         if (ImGui::Selectable(text(i), i == chosen) && i != chosen) {
             chosen = i;
             changed = true;
         }
+        ImGui::PopID();
     }
     ImGui::EndCombo();
     return changed;
@@ -236,8 +240,8 @@ Status show_animation(ViewState& state, Stage& stage) {
     if (animations.size() > 1) {
         std::vector<std::string> names{"first of each model"};
         for (const scene::Animation& a : animations) {
-            names.push_back(a.name.empty() ? fmt::format("animation {}", a.place)
-                                           : one_line(a.name));
+            const std::string name = a.name.empty() ? "animation" : one_line(a.name);
+            names.push_back(fmt::format("{}: {}", names.size(), name));
         }
         const auto& played = stage.shot().animations;
         int chosen = played.size() == 1 ? static_cast<int>(played.front()) + 1 : 0;

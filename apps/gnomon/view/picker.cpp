@@ -9,13 +9,17 @@ namespace gnomon::cli {
 
 namespace {
 
-// The ray's parameters at which it is within the box; by slabs. NaN, from a ray within a side's
-// plane, fails no comparison here.
+// The ray's parameters at which it is within the box; by slabs.
 bool meets_box(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& min,
                const glm::dvec3& max, double nearest) {
     double enter = 0.0;
     double leave = nearest;
     for (int axis = 0; axis < 3; ++axis) {
+        // Along the slab; where it runs within a side's plane, a quotient would be no number.
+        if (direction[axis] == 0.0) {
+            if (origin[axis] < min[axis] || origin[axis] > max[axis]) return false;
+            continue;
+        }
         const double a = (min[axis] - origin[axis]) / direction[axis];
         const double b = (max[axis] - origin[axis]) / direction[axis];
         if (std::min(a, b) > enter) enter = std::min(a, b);
