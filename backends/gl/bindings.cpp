@@ -36,13 +36,20 @@ Result<BufferObject> make_buffer(const Adapter& adapter, const gpu::BufferDesc& 
     gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.name);
     gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(desc.size), nullptr,
                   GL_DYNAMIC_DRAW);
-    Status made = check_errors(
-        gl, fmt::format("Creating [Buffer \"{}\"] of {} bytes", desc.label, desc.size));
+    const auto check = [&] {
+        return check_errors(
+            gl, fmt::format("Creating [Buffer \"{}\"] of {} bytes", desc.label, desc.size));
+    };
+    Status made = check();
+    if (made) {
+        // Some drivers look for the memory only when it is written to.
+        fill_with_zeros(gl, desc.size);
+        made = check();
+    }
     if (!made) {
         gl.DeleteBuffers(1, &buffer.name);
         return forward_error(made);
     }
-    fill_with_zeros(gl, desc.size);
     if (adapter.debug) set_label(gl, GL_BUFFER, buffer.name, desc.label);
     return buffer;
 }
