@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <imgui.h>
@@ -17,6 +18,13 @@ namespace gnomon::ui {
 namespace {
 
 static_assert(sizeof(ImDrawVert) == 20);
+static_assert(sizeof(ImDrawIdx) == 2);  // IndexFormat::Uint16
+
+/// Pixels of a clip rectangle, which may be larger than any target, or than an int.
+glm::ivec2 whole_pixels(const glm::vec2& pixels) {
+    constexpr float most = 1 << 20;
+    return glm::ivec2(glm::clamp(pixels, glm::vec2(-most), glm::vec2(most)));
+}
 
 /// Buffers grow by half as much again, so that a panel that grows line by line makes few.
 std::uint64_t roomy(std::uint64_t bytes) { return (bytes + bytes / 2 + 4095) / 4096 * 4096; }
@@ -63,6 +71,7 @@ struct UiPass::State {
     Status upload(GrowingBuffer& target, gpu::BufferUsage usage, const char* label,
                   std::vector<std::byte>& bytes) const;
     void collect(const ImDrawData& data);
+    Status upload_all(const ImDrawData& data);
 };
 
 Status UiPass::State::create_atlas(ImFontAtlas& fonts) {
@@ -194,8 +203,8 @@ void UiPass::State::collect(const ImDrawData& data) {
             const glm::vec4 clip(command.ClipRect.x, command.ClipRect.y, command.ClipRect.z,
                                  command.ClipRect.w);
             items.push_back(
-                {.clip_min = glm::ivec2((glm::vec2(clip) - origin) * scale),
-                 .clip_max = glm::ivec2((glm::vec2(clip.z, clip.w) - origin) * scale),
+                {.clip_min = whole_pixels((glm::vec2(clip) - origin) * scale),
+                 .clip_max = whole_pixels((glm::vec2(clip.z, clip.w) - origin) * scale),
                  .index_count = command.ElemCount,
                  .first_index = static_cast<std::uint32_t>(first_index + command.IdxOffset),
                  .base_vertex = static_cast<std::int32_t>(first_vertex + command.VtxOffset)});
@@ -216,24 +225,28 @@ UiPass& UiPass::operator=(UiPass&&) noexcept = default;
 UiPass::~UiPass() = default;
 
 Status UiPass::prepare(const ImDrawData& data) {
-    State& s = *state_;
-    s.collect(data);
-    if (s.items.empty()) return {};
+    const Status uploaded = state_->upload_all(data);
+    // What is not on the device is not drawn.
+    if (!uploaded) state_->items.clear();
+    return uploaded;
+}
+
+Status UiPass::State::upload_all(const ImDrawData& data) {
+    collect(data);
+    if (items.empty()) return {};
     const glm::vec2 scale(2.0F / data.DisplaySize.x, -2.0F / data.DisplaySize.y);
     const glm::vec2 offset =
         glm::vec2(-1.0F, 1.0F) - glm::vec2(data.DisplayPos.x, data.DisplayPos.y) * scale;
     const std::array<float, 4> uniforms{scale.x, scale.y, offset.x, offset.y};
-    if (const Status written =
-            s.device->write_buffer(s.frame, 0, std::as_bytes(std::span(uniforms)));
+    if (const Status written = device->write_buffer(frame, 0, std::as_bytes(std::span(uniforms)));
         !written) {
         return written;
     }
-    if (const Status done =
-            s.upload(s.vertices, gpu::BufferUsage::Vertex, "ui vertices", s.vertex_bytes);
+    if (const Status done = upload(vertices, gpu::BufferUsage::Vertex, "ui vertices", vertex_bytes);
         !done) {
         return done;
     }
-    return s.upload(s.indices, gpu::BufferUsage::Index, "ui indices", s.index_bytes);
+    return upload(indices, gpu::BufferUsage::Index, "ui indices", index_bytes);
 }
 
 void UiPass::record(gpu::RenderPassEncoder& pass, std::uint32_t width, std::uint32_t height) const {

@@ -33,7 +33,7 @@ public:
     ~UiPass();
 
     /// Uploads this frame's vertices and indices, one buffer each, which grow as they must. Call it
-    /// once a frame, before record().
+    /// once a frame, before record(), which draws nothing where it failed.
     [[nodiscard]] Status prepare(const ImDrawData& draw_data);
     /// Into a pass with one colour target of UiPassDesc::target_format and this size, no depth, one
     /// sample. Leaves pipeline, bind group 0, vertex and index buffer and scissor changed. Blending
