@@ -149,9 +149,15 @@ int run(int argc, char** argv) {
     commands.emplace_back("view");
 #else
     if (argc > 1 && std::string_view(argv[1]) == "view") {
+#if !GNOMON_HAS_BACKEND
+        return report({ErrorCode::Unsupported,
+                       "This build has no view: it was made without OpenGL and without Vulkan "
+                       "(GNOMON_GL, GNOMON_VK), and nothing else draws in a window."});
+#else
         return report({ErrorCode::Unsupported,
                        "This build has no view: GLFW or Dear ImGui was not found when it was made "
                        "(packages libglfw3-dev and libimgui-dev)."});
+#endif
     }
 #endif
 
