@@ -250,7 +250,11 @@ TEST_F(View, says_what_is_wrong_before_a_window_opens) {
     write("backend.input", "0 close\n1 backend glide\n");
     expect_refused({"view", "builtin:knot", "--quiet", "--script", "backend.input"},
                    {"backend.input:2", "glide"});
-    EXPECT_THAT(files(), UnorderedElementsAre("backend.input", "bad.input", "size.input"));
+    write("nowhere.input", "0 close\n1 screenshot no/such/folder/a.png\n");
+    expect_refused({"view", "builtin:knot", "--quiet", "--script", "nowhere.input"},
+                   {"nowhere.input:2", "folder"});
+    EXPECT_THAT(files(),
+                UnorderedElementsAre("backend.input", "bad.input", "nowhere.input", "size.input"));
 }
 
 }  // namespace

@@ -66,6 +66,7 @@ Status check_command(std::string_view command) {
         const auto size = parse_size(rest);
         return size ? Status() : forward_error(size);
     }
+    if (word == "screenshot") return rest.empty() ? Status() : check_writable(rest);
     if (word != "backend" || backend_named(rest)) return {};
     return fail(ErrorCode::InvalidInput,
                 fmt::format("\"{}\": there is no such backend in this build.", command));
@@ -343,9 +344,8 @@ Status Viewer::run() {
         const double dt_s = std::min(0.1, std::chrono::duration<double>(now - before).count());
         before = now;
         Status done = frame(input, script_ || options_.frames ? scripted_frame_s : dt_s);
-        if (done) {
-            losses = 0;
-        } else if (done.error().code == ErrorCode::DeviceLost && ++losses < most_losses) {
+        if (done) losses = 0;
+        while (!done && done.error().code == ErrorCode::DeviceLost && ++losses < most_losses) {
             done = exchange(window_.backend());
         }
         if (!done) return done;
