@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "internal/devices.hpp"
 
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 #define GLFW_INCLUDE_NONE

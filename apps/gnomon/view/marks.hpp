@@ -4,6 +4,11 @@
 // found, scissors and reasons.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
+#include <glm/glm.hpp>
+
 #include "view/view_state.hpp"
 
 namespace gnomon::cli {

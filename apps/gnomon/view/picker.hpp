@@ -3,6 +3,8 @@
 // What lies under a pixel: rays through the picture against the triangles that are drawn.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 

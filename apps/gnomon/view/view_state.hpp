@@ -3,8 +3,10 @@
 // What the viewer remembers between frames: the panel shows and changes it, the viewer acts on it.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gnomon/shadows/shadow_system.hpp>

@@ -3,6 +3,8 @@
 // The one file outside of the apps that knows both backends: a device for a window.
 #pragma once
 
+#include <string>
+
 #include <gnomon/core/result.hpp>
 #include <gnomon/gpu/device.hpp>
 #include <gnomon/window/window.hpp>
