@@ -29,6 +29,10 @@ glm::dvec2 plan_direction(double angle_rad) { return {std::sin(angle_rad), std::
 
 double plan_angle(const glm::dvec2& direction) { return std::atan2(direction.x, direction.y); }
 
+glm::dquat turned_in_plan(double angle_rad) {
+    return glm::angleAxis(angle_rad, glm::dvec3(0.0, 1.0, 0.0));
+}
+
 double turned_between(double from_rad, double to_rad, double share) {
     return from_rad + std::remainder(to_rad - from_rad, full_circle) * share;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "level.hpp"
 #include "timing.hpp"
@@ -39,6 +40,8 @@ struct GuardPose {
 /// Unit, in plan: (x, z) of a plan angle.
 [[nodiscard]] glm::dvec2 plan_direction(double angle_rad);
 [[nodiscard]] double plan_angle(const glm::dvec2& direction);
+/// About the vertical, by a plan angle.
+[[nodiscard]] glm::dquat turned_in_plan(double angle_rad);
 /// From one plan angle to another the shorter way, by a share of 0 to 1.
 [[nodiscard]] double turned_between(double from_rad, double to_rad, double share);
 

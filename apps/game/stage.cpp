@@ -21,8 +21,6 @@ namespace {
 
 const glm::dvec3 up(0.0, 1.0, 0.0);
 
-glm::dquat turned_in_plan(double angle_rad) { return glm::angleAxis(angle_rad, up); }
-
 /// With -Z along `direction`.
 glm::dquat looking_along(const glm::dvec3& direction) {
     const glm::dvec3 hint =

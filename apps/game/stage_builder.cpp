@@ -32,10 +32,6 @@ std::shared_ptr<const scene::Mesh> share(scene::Mesh mesh) {
     return std::make_shared<const scene::Mesh>(std::move(mesh));
 }
 
-glm::dquat in_plan(double angle_rad) {
-    return glm::angleAxis(angle_rad, glm::dvec3(0.0, 1.0, 0.0));
-}
-
 }  // namespace
 
 class StageBuilder {
@@ -131,7 +127,7 @@ private:
                 painted(block.color, block.is_wall ? Grain::Bricks : plain);
             const scene::LocalTransform local{
                 .translation = {block.at.x, block.base_m + size.y * 0.5 - sunk, block.at.y},
-                .rotation = in_plan(block.turn_rad)};
+                .rotation = turned_in_plan(block.turn_rad)};
             // Narrower than that, the bars of a crate would meet from both sides.
             const bool is_crate = !block.is_wall && block.size_m.y <= 3.0 &&
                                   std::min(block.size_m.x, block.size_m.z) >= least_crate_m;
@@ -187,7 +183,7 @@ private:
             add("arm",
                 share(scene::make_box({0.05F, 0.05F, static_cast<float>(arm_m) + 0.1F}, iron_)),
                 {.translation = {out.x * arm_m * 0.5, over_m - 0.06, out.y * arm_m * 0.5},
-                 .rotation = in_plan(plan_angle(out))},
+                 .rotation = turned_in_plan(plan_angle(out))},
                 entity);
             add("shade", share(scene::make_cylinder(0.24F, 0.03F, 24, iron_)),
                 {.translation = {0.0, 0.26, 0.0}}, entity);
@@ -267,7 +263,7 @@ private:
                 const glm::dvec2 at = wheel.at + axis * side + across * (lean * axle_m * 0.5);
                 add("post", post,
                     {.translation = {at.x, axle_m * 0.5, at.y},
-                     .rotation = in_plan(wheel.turn_rad) *
+                     .rotation = turned_in_plan(wheel.turn_rad) *
                                  glm::angleAxis(lean, glm::dvec3(0.0, 0.0, 1.0))});
             }
         }
@@ -308,9 +304,10 @@ private:
             const glm::dvec2 out = plan_direction(angle) * 0.52;
             std::array<scene::Entity, 3> segment;
             for (std::size_t k = 0; k < meshes.size(); ++k) {
-                segment[k] = add("segment", meshes[k],
-                                 {.translation = {out.x, 0.012, out.y}, .rotation = in_plan(angle)},
-                                 stage_.ring_, Part::Glow);
+                segment[k] =
+                    add("segment", meshes[k],
+                        {.translation = {out.x, 0.012, out.y}, .rotation = turned_in_plan(angle)},
+                        stage_.ring_, Part::Glow);
             }
             stage_.segments_.push_back(segment);
         }
