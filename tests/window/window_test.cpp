@@ -74,14 +74,19 @@ protected:
         if (!window && test::is_required(std::string(name_of(GetParam())))) {
             ADD_FAILURE() << window.error().message;
         }
-        if (!window) return std::nullopt;
+        if (!window) {
+            why_none_ = window.error().message;
+            return std::nullopt;
+        }
         return std::move(*window);
     }
+
+    std::string why_none_;
 };
 
 TEST_P(WindowOn, shows_what_is_presented_at_any_size) {
     auto window = open();
-    if (!window) GTEST_SKIP();
+    if (!window) GTEST_SKIP() << why_none_;
     EXPECT_EQ(window->backend(), GetParam());
     EXPECT_EQ(window->device().caps().backend, name_of(GetParam()));
     EXPECT_EQ(window->size_px(), glm::uvec2(160, 120));
@@ -96,7 +101,7 @@ TEST_P(WindowOn, shows_what_is_presented_at_any_size) {
 
 TEST_P(WindowOn, gives_way_to_the_other_backend_and_comes_back) {
     auto window = open();
-    if (!window) GTEST_SKIP();
+    if (!window) GTEST_SKIP() << why_none_;
     const std::vector<Backend> all = backends();
     if (all.size() < 2) GTEST_SKIP() << "There is one backend in this build.";
     const Backend other = GetParam() == Backend::Gl ? Backend::Vk : Backend::Gl;
@@ -124,7 +129,7 @@ TEST_P(WindowOn, gives_way_to_the_other_backend_and_comes_back) {
 
 TEST_P(WindowOn, reports_keys) {
     auto window = open();
-    if (!window) GTEST_SKIP();
+    if (!window) GTEST_SKIP() << why_none_;
     expect_on_screen(*window, {10, 200, 30});  // it is there
     test::send_key(80, 60, 'w', true);
     bool seen = false;
@@ -140,7 +145,7 @@ TEST_P(WindowOn, reports_keys) {
 
 TEST_P(WindowOn, fills_the_screen_and_comes_back) {
     auto window = open();
-    if (!window) GTEST_SKIP();
+    if (!window) GTEST_SKIP() << why_none_;
     window->set_fullscreen(true);
     for (int i = 0; i < 100 && window->size_px().x != 1280; ++i) window->poll(0.01);
     // The screen that tests/window/CMakeLists.txt asks for.
