@@ -3,6 +3,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <gnomon/render/light_choice.hpp>
 
@@ -28,6 +29,9 @@ struct Contender {
     std::vector<truth::Judgement> judgements;
 };
 
+// Wrong pixels that a note gives places of.
+constexpr std::size_t most_named = 16;
+
 class Measuring {
 public:
     Measuring(gpu::Device& device, Subject& subject, const Options& options,
@@ -44,6 +48,12 @@ private:
     Status trace();
     Status choose();
     void judge(Contender& contender);
+    struct Mask {
+        std::uint32_t frame = 0;
+        std::size_t light = 0;
+    };
+    void look_into(Technique& technique, const Moment& moment, Mask of,
+                   const truth::Judgement& judged);
     bool restart(Contender& contender);
     std::optional<double> time_frame(Contender& contender, std::uint32_t frame);
     double time_alone(Contender& contender);
@@ -73,6 +83,7 @@ private:
     std::vector<Contender> contenders_;
     std::uint64_t wrong_of_auto_ = 0;  // over all frames
     std::uint64_t edge_on_of_auto_ = 0;
+    std::vector<std::string> unexplained_;  // the first of the others, in words
     std::uint32_t rounds_ = 0;
     double empty_frame_ms_ = 0.0;
     std::optional<Error> lost_;
@@ -141,8 +152,7 @@ void Measuring::judge(Contender& contender) {
         for (std::size_t i = 0; i < masks->size(); ++i) {
             const truth::Judgement judged = truth::judge(truth_[frame][i], (*masks)[i]);
             if (judged.wrong() > 0 && &contender == &contenders_.front()) {
-                wrong_of_auto_ += judged.wrong();
-                edge_on_of_auto_ += contender.technique->edge_on(moment, i, judged.wrong_pixels);
+                look_into(*contender.technique, moment, {frame, i}, judged);
             }
             total += judged;
         }
@@ -153,6 +163,21 @@ void Measuring::judge(Contender& contender) {
         contender.row.difference = difference_thumbnail(truth_[frame], *masks);
     }
     contender.row.errors = errors_of(contender.judgements);
+}
+
+// Why `auto` is wrong there, or at least where that is.
+void Measuring::look_into(Technique& technique, const Moment& moment, Mask of,
+                          const truth::Judgement& judged) {
+    wrong_of_auto_ += judged.wrong();
+    for (const std::uint32_t& at : judged.wrong_pixels) {
+        if (technique.edge_on(moment, of.light, {&at, 1}) > 0) {
+            ++edge_on_of_auto_;
+        } else if (unexplained_.size() < most_named) {
+            unexplained_.push_back(fmt::format("({}, {}) of frame {} by light {}",
+                                               at % options_.width, at / options_.width,
+                                               of.frame + 1, of.light + 1));
+        }
+    }
 }
 
 bool Measuring::restart(Contender& contender) {
@@ -334,6 +359,12 @@ Result<Cell> Measuring::run() {
             "cannot place such a side in depth, so that any shadow volume may be wrong there.",
             wrong_of_auto_, wrong_of_auto_ == 1 ? "" : "s", options_.frames, edge_on_of_auto_,
             edge_on_of_auto_ == 1 ? "s" : ""));
+    }
+    if (!unexplained_.empty()) {
+        cell.notes.push_back(fmt::format(
+            "Wrong pixels of auto with no such side, x from the left and y from the top: {}{}.",
+            fmt::join(unexplained_, "; "),
+            unexplained_.size() == most_named ? "; and there may be more" : ""));
     }
     cell.truth = truth_thumbnail(truth_.back());
     subject_.scene.registry.each<scene::MeshInstance>(

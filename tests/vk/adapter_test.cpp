@@ -161,7 +161,9 @@ TEST(Instance, WithoutTheValidationLayerSaysSo) {
 }
 
 TEST(Instance, WithoutADriverSaysSo) {
+    // By both of its names: the newer one wins where it is set.
     const ScopedVariable driver{"VK_ICD_FILENAMES", GNOMON_SOURCE_DIR "/no_driver.json"};
+    const ScopedVariable newer{"VK_DRIVER_FILES", GNOMON_SOURCE_DIR "/no_driver.json"};
     const auto backend = vk::create_backend();
     ASSERT_FALSE(backend);
     EXPECT_EQ(backend.error().code, ErrorCode::Unsupported);
