@@ -211,6 +211,9 @@ Result<Adapter> open_adapter(const Context& context, const BackendOptions& optio
     adapter.debug = options.debug && adapter.debug_groups;
     adapter.texture_units = get_limit(gl, GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS);
     adapter.uniform_buffer_bindings = get_limit(gl, GL_MAX_UNIFORM_BUFFER_BINDINGS);
+    adapter.viewports = std::max(get_limit(gl, GL_MAX_VIEWPORTS), 1U);
+    adapter.compatibility = (static_cast<GLuint>(get_integer(gl, GL_CONTEXT_PROFILE_MASK)) &
+                             GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
     adapter.caps.backend = "gl";
     adapter.caps.adapter = get_string(gl, GL_RENDERER) + ", OpenGL " + version_text;
     adapter.caps.features = read_features(gl, extensions);

@@ -6,11 +6,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "internal/adapter.hpp"
 #include "internal/bindings.hpp"
 #include "internal/command_executor.hpp"
 #include "internal/debug_output.hpp"
 #include "internal/framebuffer_cache.hpp"
+#include "internal/host_target.hpp"
+#include "internal/kept_state.hpp"
 #include "internal/objects.hpp"
 #include "internal/pipeline.hpp"
 #include "internal/present.hpp"
@@ -21,10 +26,14 @@ namespace gnomon::gl {
 namespace {
 
 /// The context is current while one of these lives. A host that shares the context finds its
-/// default framebuffer bound afterwards, not one of ours.
+/// default framebuffer bound afterwards, not one of ours; one whose context was adopted, all as it
+/// was.
 class Session {
 public:
-    Session(Context& context, const GlFunctions& gl) : gl_(gl), status_(context.make_current()) {}
+    Session(Context& context, const Adapter& adapter, KeptScope scope, KeptState::Bound bound)
+        : gl_(adapter.gl), status_(context.make_current()) {
+        if (status_ && context.restores_state()) kept_.emplace(adapter, scope, bound);
+    }
     ~Session() {
         if (status_) gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
     }
@@ -36,6 +45,7 @@ public:
 private:
     const GlFunctions& gl_;
     Status status_;
+    std::optional<KeptState> kept_;  // gives back what it keeps after all else
 };
 
 class GlBackend final : public gpu::Backend {
@@ -47,7 +57,7 @@ public:
     }
 
     ~GlBackend() override {
-        const Session session(*context_, gl_);
+        const Session session = open(KeptScope::Bindings);
         if (!session.status()) return;  // the objects went with the context
         if (adapter_.debug) uninstall_debug_output(gl_);
         framebuffers_.clear(gl_);
@@ -66,8 +76,23 @@ public:
         return create(objects_.buffers, id, [&] { return make_buffer(adapter_, desc); });
     }
     Status create_texture(gpu::TextureId id, const gpu::TextureDesc& desc) override {
-        return create(objects_.textures, id,
-                      [&] { return make_texture(adapter_, framebuffers_, desc); });
+        return create(
+            objects_.textures, id, [&] { return make_texture(adapter_, framebuffers_, desc); },
+            KeptScope::Everything);
+    }
+    Status import_texture(gpu::TextureId id, const gpu::TextureDesc& desc,
+                          const gpu::NativeTexture& native) override {
+        const auto* host = std::any_cast<HostTarget>(&native);
+        if (host == nullptr) {
+            return fail(ErrorCode::InvalidInput,
+                        fmt::format("[Texture \"{}\"] cannot be imported: what OpenGL imports is a "
+                                    "gl::HostTarget.",
+                                    desc.label));
+        }
+        imported_any_ = true;
+        return create(
+            objects_.textures, id, [&] { return import_host_target(adapter_, desc, *host); },
+            KeptScope::Everything);
     }
     Status create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& desc) override {
         return create(objects_.samplers, id, [&] { return make_sampler(adapter_, desc); });
@@ -77,6 +102,11 @@ public:
     }
     Status create_bind_group_layout(gpu::BindGroupLayoutId id,
                                     const gpu::BindGroupLayoutDesc& desc) override {
+        for (const gpu::BindGroupLayoutEntry& entry : desc.entries) {
+            GLuint& used = entry.type == gpu::BindingType::UniformBuffer ? bound_.uniform_buffers
+                                                                         : bound_.texture_units;
+            used = std::max(used, entry.binding + 1);
+        }
         return create(objects_.bind_group_layouts, id,
                       [&] { return make_bind_group_layout(adapter_, desc); });
     }
@@ -110,7 +140,7 @@ public:
 
     Status write_buffer(gpu::BufferId id, std::uint64_t offset,
                         std::span<const std::byte> data) override {
-        const Session session(*context_, gl_);
+        const Session session = open(KeptScope::Bindings);
         if (!session.status()) return session.status();
         gl_.BindBuffer(GL_COPY_WRITE_BUFFER, objects_.buffers[id].name);
         gl_.BufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset),
@@ -119,7 +149,7 @@ public:
     }
     Status write_texture(gpu::TextureId id, std::uint32_t mip_level,
                          std::span<const std::byte> data) override {
-        const Session session(*context_, gl_);
+        const Session session = open(KeptScope::Everything);
         if (!session.status()) return session.status();
         const TextureObject& texture = objects_.textures[id];
         upload(gl_, texture, mip_level, data);
@@ -128,27 +158,30 @@ public:
     }
 
     Status submit(const gpu::CommandBuffer& commands) override {
-        const Session session(*context_, gl_);
+        const Session session = open(KeptScope::Everything);
         if (!session.status()) return session.status();
-        CommandExecutor executor(adapter_, objects_, framebuffers_, vertex_array_, commands);
+        GLint provoking_vertex = GL_LAST_VERTEX_CONVENTION;
+        if (imported_any_) gl_.GetIntegerv(GL_PROVOKING_VERTEX, &provoking_vertex);
+        CommandExecutor executor(adapter_, objects_, framebuffers_,
+                                 {vertex_array_, static_cast<GLenum>(provoking_vertex)}, commands);
         if (Status run = executor.run(); !run) return run;
         return check_if_debug(fmt::format("Submitting [CommandBuffer \"{}\"]", commands.label));
     }
     Status wait_idle() override {
-        const Session session(*context_, gl_);
+        const Session session = open(KeptScope::Bindings);
         if (!session.status()) return session.status();
         gl_.Finish();
         return check_errors(gl_, "Waiting for the device");
     }
 
     Status read_buffer(gpu::BufferId id, std::uint64_t offset, std::span<std::byte> out) override {
-        const Session session(*context_, gl_);
+        const Session session = open(KeptScope::Bindings);
         if (!session.status()) return session.status();
         gl::read_buffer(gl_, objects_.buffers[id], offset, out);
         return check_errors(gl_, "Reading a buffer");
     }
     Status read_texture(gpu::TextureId id, gpu::Aspect aspect, std::span<std::byte> out) override {
-        const Session session(*context_, gl_);
+        const Session session = open(KeptScope::Everything);
         if (!session.status()) return session.status();
         const TextureObject& texture = objects_.textures[id];
         if (Status read = gl::read_texture(gl_, framebuffers_, texture, aspect, out); !read) {
@@ -157,7 +190,7 @@ public:
         return check_errors(gl_, fmt::format("Reading [Texture \"{}\"]", texture.label));
     }
     Result<std::vector<std::uint64_t>> read_query_set(gpu::QuerySetId id) override {
-        const Session session(*context_, gl_);
+        const Session session = open(KeptScope::Bindings);
         if (!session.status()) return forward_error(session.status());
         auto values = gl::read_query_set(gl_, objects_.query_sets[id]);
         if (const Status read = check_errors(gl_, "Reading a query set"); !read) {
@@ -167,7 +200,7 @@ public:
     }
 
     Status present(gpu::TextureId id) override {
-        const Session session(*context_, gl_);
+        const Session session = open(KeptScope::Everything);
         if (!session.status()) return session.status();
         const TextureObject& texture = objects_.textures[id];
         if (Status presented = gl::present(gl_, framebuffers_, *context_, texture); !presented) {
@@ -177,9 +210,14 @@ public:
     }
 
 private:
+    [[nodiscard]] Session open(KeptScope scope) const {
+        return Session(*context_, adapter_, scope, bound_);
+    }
+
     template <class Tag, class Object, class Make>
-    Status create(Table<Tag, Object>& table, gpu::Id<Tag> id, Make&& make) {
-        const Session session(*context_, gl_);
+    Status create(Table<Tag, Object>& table, gpu::Id<Tag> id, Make&& make,
+                  KeptScope scope = KeptScope::Bindings) {
+        const Session session = open(scope);
         if (!session.status()) return session.status();
         Result<Object> made = make();
         if (!made) return forward_error(made);
@@ -190,7 +228,7 @@ private:
     template <class Tag, class Object>
     void take_and_free(Table<Tag, Object>& table, gpu::Id<Tag> id) {
         if (auto object = table.take(id)) {
-            const Session session(*context_, gl_);
+            const Session session = open(KeptScope::Bindings);
             if (session.status()) free(*object);
         }
     }
@@ -215,6 +253,8 @@ private:
     const GlFunctions& gl_ = adapter_.gl;
     gpu::MessageSink sink_;
     GLuint vertex_array_ = 0;
+    KeptState::Bound bound_;  // by any bind group
+    bool imported_any_ = false;
     FramebufferCache framebuffers_;
     Objects objects_;
 };

@@ -19,14 +19,15 @@ GLsizei to_size(std::size_t value) { return static_cast<GLsizei>(value); }
 }  // namespace
 
 CommandExecutor::CommandExecutor(const Adapter& adapter, Objects& objects,
-                                 FramebufferCache& framebuffers, GLuint vertex_array,
+                                 FramebufferCache& framebuffers, const Surroundings& surroundings,
                                  const gpu::CommandBuffer& commands)
     : adapter_(adapter),
       gl_(adapter.gl),
       objects_(objects),
       framebuffers_(framebuffers),
       commands_(commands),
-      state_(adapter, vertex_array),
+      state_(adapter, surroundings.vertex_array),
+      host_provoking_vertex_(surroundings.provoking_vertex),
       vertex_buffers_(adapter.caps.limits.max_vertex_buffers) {}
 
 Status CommandExecutor::run() {
@@ -68,11 +69,11 @@ Status CommandExecutor::bind_attachments(const gpu::RenderPassDesc& pass) {
         key.depth_stencil = any->name;
         depth_stencil_format = any->format;
     }
-    if (Status bound = framebuffers_.bind(gl_, key, any->target, depth_stencil_format,
-                                          fmt::format("[RenderPass \"{}\"]", pass.label));
-        !bound) {
-        return bound;
-    }
+    target_ = any;
+    Status bound = any->host ? bind_host(pass, *any->host)
+                             : framebuffers_.bind(gl_, key, any->target, depth_stencil_format,
+                                                  fmt::format("[RenderPass \"{}\"]", pass.label));
+    if (!bound) return bound;
     state_.set_viewport({.x = 0.0F,
                          .y = 0.0F,
                          .width = static_cast<float>(any->width),
@@ -80,6 +81,19 @@ Status CommandExecutor::bind_attachments(const gpu::RenderPassDesc& pass) {
                          .min_depth = 0.0F,
                          .max_depth = 1.0F});
     state_.set_depth_bounds({});
+    return {};
+}
+
+Status CommandExecutor::bind_host(const gpu::RenderPassDesc& pass, const HostFramebuffer& host) {
+    if (!pass.color_attachments.empty()) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("[RenderPass \"{}\"] has colour attachments beside a depth-stencil "
+                                "that was imported, which is drawn to alone.",
+                                pass.label));
+    }
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, host.name);
+    gl_.ClipControl(host.upper_left ? GL_UPPER_LEFT : GL_LOWER_LEFT, host.clip_depth);
+    gl_.ProvokingVertex(host_provoking_vertex_);
     return {};
 }
 
@@ -130,6 +144,7 @@ void CommandExecutor::operator()(const gpu::cmd::EndRenderPass&) {
         write_timestamp(pass_->timestamp_writes->query_set, pass_->timestamp_writes->end_index);
     }
     pop_group();
+    if (target_->host) state_.set_conventions();
     pass_ = nullptr;
 }
 
@@ -215,7 +230,12 @@ void CommandExecutor::operator()(const gpu::cmd::SetViewport& command) {
 }
 
 void CommandExecutor::operator()(const gpu::cmd::SetScissorRect& command) {
-    state_.set_scissor(command);
+    gpu::cmd::SetScissorRect rect = command;
+    // Rows are those of the framebuffer, as vertex stages leave them; there they are turned over.
+    if (target_->host && target_->host->upper_left) {
+        rect.y = target_->height - command.y - command.height;
+    }
+    state_.set_scissor(rect);
 }
 
 void CommandExecutor::operator()(const gpu::cmd::SetDepthBounds& command) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,8 @@ public:
 
     /// Pixels of the window's framebuffer; nothing where there is no window.
     [[nodiscard]] virtual std::optional<Extent> window_size() const { return std::nullopt; }
+    /// Whether OpenGL's state is a host's, which finds it after each call as it was before.
+    [[nodiscard]] virtual bool restores_state() const { return false; }
     virtual Status swap_buffers() {
         return fail(ErrorCode::Unsupported,
                     "This OpenGL context (" + description() + ") has no window.");
@@ -50,6 +53,25 @@ public:
 /// The best there is without a window: EGL's where EGL lists a device of hardware, else OSMesa's
 /// (it is there without any set-up, and has all three stencil paths), else EGL's on software.
 [[nodiscard]] Result<std::unique_ptr<Context>> create_headless_context();
+
+/// As wglGetProcAddress, eglGetProcAddress, glfwGetProcAddress and their kin: null where there is
+/// no such function.
+using GetProcAddress = std::function<void*(const char* name)>;
+
+/// What a host finds of OpenGL's state after a call of gnomon's.
+enum class HostState : std::uint8_t {
+    Restored,  ///< what it was. Some hundred queries of state for each submission, a dozen for
+               ///< other calls
+    Defaults,  ///< OpenGL's defaults, in all that gnomon touches
+};
+
+/// The context that is current on this thread, of any platform, core or compatibility profile. It
+/// stays the host's, who has it current whenever the backend or an object of its device is used,
+/// destroyed or freed, and keeps it for as long. While gnomon is called no query, conditional
+/// rendering or transform feedback is under way, no program is current that was deleted, and errors
+/// that were not asked for (glGetError) are lost.
+[[nodiscard]] Result<std::unique_ptr<Context>> adopt_current_context(
+    GetProcAddress get_proc_address, HostState state = HostState::Restored);
 
 /// The context of a GLFW window that the host made and keeps alive. Only in gnomon::gl_glfw.
 [[nodiscard]] Result<std::unique_ptr<Context>> create_glfw_context(GLFWwindow* window);

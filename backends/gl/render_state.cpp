@@ -20,7 +20,7 @@ RenderState::RenderState(const Adapter& adapter, GLuint vertex_array)
       uniforms_(adapter.uniform_buffer_bindings),
       textures_(adapter.texture_units) {}
 
-void RenderState::begin() {
+void RenderState::set_conventions() {
     // Row 0 must be on top, with the top-left fill rule and the sample places of every other API.
     // GL_UPPER_LEFT turns the fill rule over with the picture: an edge that runs exactly through
     // pixel centres would belong to other pixels than on Vulkan. So the lower-left origin stays,
@@ -29,6 +29,10 @@ void RenderState::begin() {
     // WebGPU's and Vulkan's choice. It also decides from which corner a software rasteriser sets a
     // triangle's depth plane up, and so the last bit of every depth.
     gl_.ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
+}
+
+void RenderState::begin() {
+    set_conventions();
     gl_.Enable(GL_FRAMEBUFFER_SRGB);
     gl_.Enable(GL_MULTISAMPLE);
     for (const GLenum off : std::initializer_list<GLenum>{
@@ -74,7 +78,6 @@ void RenderState::end() {
     gl_.DepthRangeIndexed(0, 0.0, 1.0);
     gl_.FrontFace(GL_CCW);
     gl_.CullFace(GL_BACK);
-    gl_.ProvokingVertex(GL_LAST_VERTEX_CONVENTION);
     gl_.ProvokingVertex(GL_LAST_VERTEX_CONVENTION);
     gl_.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
 }

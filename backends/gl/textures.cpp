@@ -104,6 +104,10 @@ Result<TextureObject> make_texture(const Adapter& adapter, FramebufferCache& cac
 }
 
 void delete_texture(const GlFunctions& gl, FramebufferCache& cache, const TextureObject& texture) {
+    if (texture.host) {
+        if (texture.host->owned) gl.DeleteFramebuffers(1, &texture.host->name);
+        return;
+    }
     cache.forget_texture(gl, texture.name);
     if (texture.stencil_view != 0) gl.DeleteTextures(1, &texture.stencil_view);
     gl.DeleteTextures(1, &texture.name);

@@ -7,6 +7,7 @@
 // docs/backends.md is the checklist for writing one.
 #pragma once
 
+#include <any>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,6 +20,9 @@
 
 namespace gnomon::gpu {
 
+/// A texture that the host made, in words of the backend's own: gl::HostTarget.
+using NativeTexture = std::any;
+
 class Backend {
 public:
     virtual ~Backend() = default;
@@ -27,6 +31,12 @@ public:
 
     virtual Status create_buffer(BufferId, const BufferDesc&) = 0;  ///< contents start as zero
     virtual Status create_texture(TextureId, const TextureDesc&) = 0;
+    /// Names what the host made, which stays the host's: destroy() frees the name alone.
+    virtual Status import_texture(TextureId, const TextureDesc& desc, const NativeTexture&) {
+        return fail(ErrorCode::Unsupported, "[Texture \"" + desc.label +
+                                                "\"] cannot be imported: this backend (" +
+                                                caps().backend + ") adopts no textures.");
+    }
     virtual Status create_sampler(SamplerId, const SamplerDesc&) = 0;
     virtual Status create_shader(ShaderId, const ShaderDesc&) = 0;
     virtual Status create_bind_group_layout(BindGroupLayoutId, const BindGroupLayoutDesc&) = 0;

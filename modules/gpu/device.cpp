@@ -18,16 +18,17 @@ namespace {
 
 /// The one way in which objects are made: validate, name, hand to the backend. `make` is the
 /// backend's function.
-template <class Tag, class Desc>
+template <class Tag, class Desc, class... More>
 Result<Owned<Tag>> create(const std::shared_ptr<DeviceState>& state, const Desc& desc,
-                          Status (Backend::*make)(Id<Tag>, const Desc&)) {
+                          Status (Backend::*make)(Id<Tag>, const Desc&, const More&...),
+                          const More&... more) {
     auto record = validate(*state, desc);
     if (!record) {
         return in_frame(record, fmt::format("While creating {}.",
                                             object_name(ObjectKind<Tag>::name, desc.label)));
     }
     const Id<Tag> id = state->table<Tag>().insert(desc.label, std::move(*record));
-    if (const Status made = (state->backend().*make)(id, desc); !made) {
+    if (const Status made = (state->backend().*make)(id, desc, more...); !made) {
         state->table<Tag>().erase(id);
         return forward_error(made);
     }
@@ -48,6 +49,10 @@ Result<Buffer> Device::create_buffer(const BufferDesc& desc) {
 
 Result<Texture> Device::create_texture(const TextureDesc& desc) {
     return create(state_, desc, &Backend::create_texture);
+}
+
+Result<Texture> Device::import_texture(const TextureDesc& desc, const NativeTexture& native) {
+    return create(state_, desc, &Backend::import_texture, native);
 }
 
 Result<Sampler> Device::create_sampler(const SamplerDesc& desc) {

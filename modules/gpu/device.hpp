@@ -43,6 +43,12 @@ public:
     // backend says.
     [[nodiscard]] Result<Buffer> create_buffer(const BufferDesc& desc);
     [[nodiscard]] Result<Texture> create_texture(const TextureDesc& desc);
+    /// A texture that the host made and keeps: freeing the owner frees the name alone. `desc` says
+    /// what it is, `native` which one, in the backend's own words (gl::HostTarget). Its contents
+    /// stay; it outlives every use here. ErrorCode::Unsupported where the backend cannot use it,
+    /// with a sentence that says what to change.
+    [[nodiscard]] Result<Texture> import_texture(const TextureDesc& desc,
+                                                 const NativeTexture& native);
     [[nodiscard]] Result<Sampler> create_sampler(const SamplerDesc& desc);
     [[nodiscard]] Result<Shader> create_shader(const ShaderDesc& desc);
     [[nodiscard]] Result<BindGroupLayout> create_bind_group_layout(const BindGroupLayoutDesc& desc);

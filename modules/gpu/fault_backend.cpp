@@ -25,6 +25,10 @@ public:
     Status create_texture(TextureId id, const TextureDesc& desc) override {
         return guard("create_texture", &Backend::create_texture, id, desc);
     }
+    Status import_texture(TextureId id, const TextureDesc& desc,
+                          const NativeTexture& native) override {
+        return guard("import_texture", &Backend::import_texture, id, desc, native);
+    }
     Status create_sampler(SamplerId id, const SamplerDesc& desc) override {
         return guard("create_sampler", &Backend::create_sampler, id, desc);
     }

@@ -37,7 +37,7 @@ Result<BackgroundClear> BackgroundClear::create(gpu::Device& device, const Shado
     // Where what is near has the lesser depth, what is farthest has 1.
     const bool forward =
         desc.depth_compare == gpu::Compare::Less || desc.depth_compare == gpu::Compare::LessEqual;
-    result.first_vertex_ = forward ? 3 : 0;
+    result.first_vertex_ = forward ? 3 : desc.clip_from_minus_one ? 6 : 0;
     return result;
 }
 

@@ -60,7 +60,7 @@ void ShadowPass::State::add_key(const shadows::VolumeDraw& draw, const shadows::
                 .batch = draw.batch,
                 .technique = draw.technique,
                 .ends = internal::ends_of(draw, slab, desc),
-                .mirrored = draw.mirrored,
+                .mirrored = draw.mirrored != mirrored_view,
                 .hidden = bounds.empty()};
     key.scissor = key.wanted;
     const bool cut = target.width > 0 && target.height > 0;
@@ -164,7 +164,7 @@ Status ShadowPass::State::add_quad_calls(const shadows::DrawList& list, std::uin
              .instance = quads->uniform_offset(i),
              .batch = draw.batch,
              .pipeline = static_cast<std::uint8_t>(internal::pipeline_index(
-                 draw.technique, draw.mirrored != run.exchanged, unclipped(light), run.role)),
+                 draw.technique, key.mirrored != run.exchanged, unclipped(light), run.role)),
              .quads = draw.quads->facing});
     }
     return {};
@@ -212,7 +212,7 @@ Status ShadowPass::State::add_calls(const shadows::DrawList& list, std::uint32_t
              .instance = key->instance,
              .batch = draw.batch,
              .pipeline = static_cast<std::uint8_t>(internal::pipeline_index(
-                 draw.technique, draw.mirrored != run.exchanged, unclipped(light), run.role))});
+                 draw.technique, key->mirrored != run.exchanged, unclipped(light), run.role))});
     }
     light.parts.push_back({.instance = i,
                            .vertices = from->buffer,

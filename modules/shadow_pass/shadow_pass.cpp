@@ -185,6 +185,7 @@ Status ShadowPass::State::prepare(const shadows::DrawList& list, const shadows::
         return written;
     }
     const bool finite = view.projection != shadows::ProjectionKind::InfinitePerspective;
+    mirrored_view = shadows::is_mirrored(view);
     const bool changed = find_changed_lights(list, finite) || matrices != instances.buffer();
     if (changed || recording_revision == 0) ++recording_revision;
     // What changed frees its old indices first, so that the new ones find the room.

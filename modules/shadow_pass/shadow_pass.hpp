@@ -71,6 +71,8 @@ struct ShadowPassDesc {
     /// "In front of", strictly: caps lie on surfaces, and equality must count as behind. Less where
     /// a host's depth runs forward.
     gpu::Compare depth_compare = gpu::Compare::Greater;
+    /// The clip space of the view that is drawn has depth from -1 to 1 (OpenGL's own), not from 0.
+    bool clip_from_minus_one = false;
     std::uint32_t sample_count = 1;
     std::vector<gpu::Format> color_formats =
         {};  ///< of the render pass that volumes are drawn in; none is written
@@ -132,7 +134,8 @@ public:
     /// Uploads what the list needs and the GPU does not have: where nothing moved but the camera,
     /// 148 bytes a volume of matrices; where a caster moved, those of its volumes. Nothing is done
     /// for the list of the last call (DrawList::revision) and the same view. The list is remembered
-    /// until the next call.
+    /// until the next call. A view may be mirrored (shadows::is_mirrored), y pointing down for
+    /// instance.
     ///
     /// `target` is the size of what record() will draw into: volumes are then cut to the pixels
     /// that they can change (VolumeDraw::bounds). Without it none is. Where the adapter has depth

@@ -67,6 +67,12 @@ glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::d
     return m;
 }
 
+bool is_mirrored(const View& view) {
+    const glm::dmat4& clip = view.clip_from_view;
+    const double turn = clip[0][0] * clip[1][1] - clip[1][0] * clip[0][1];
+    return turn * glm::determinant(glm::dmat3(view.view_from_world)) < 0.0;
+}
+
 std::array<glm::dvec3, 4> near_corners(const View& view) { return corners_at_depth(view, 1.0); }
 std::array<glm::dvec3, 4> far_corners(const View& view) { return corners_at_depth(view, 0.0); }
 

@@ -42,6 +42,10 @@ struct View {
 [[nodiscard]] glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target,
                                  const glm::dvec3& up);
 
+/// True where triangles that are counter-clockwise as seen by the eye are clockwise on the screen: y
+/// points down, or the world is mirrored. Front and back of what is drawn exchange.
+[[nodiscard]] bool is_mirrored(const View& view);
+
 /// The corners of the near rectangle (depth 1) in world space, in order round it.
 [[nodiscard]] std::array<glm::dvec3, 4> near_corners(const View& view);
 /// The corners of the far rectangle (depth 0). Not for an infinite perspective.

@@ -1,8 +1,9 @@
-# Script mode: runs PROGRAM in FOLDER. It has to exit with 0, print what matches REQUIRED_OUTPUT, print nothing on stderr
-# and leave each of FILES (NAME:BYTES) behind.
+# Script mode: runs PROGRAM in FOLDER, behind the words of LAUNCHER (with bars between) if there are any. It has to exit with
+# 0, print what matches REQUIRED_OUTPUT, print nothing on stderr and leave each of FILES (NAME:BYTES) behind.
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
-execute_process(COMMAND ${PROGRAM} WORKING_DIRECTORY ${FOLDER}
+string(REPLACE "|" ";" LAUNCHER "${LAUNCHER}")
+execute_process(COMMAND ${LAUNCHER} ${PROGRAM} WORKING_DIRECTORY ${FOLDER}
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
 if(NOT result STREQUAL 0)
   message(FATAL_ERROR "${PROGRAM} exits with ${result}: ${errors}")

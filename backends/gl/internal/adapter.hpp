@@ -23,6 +23,8 @@ struct Adapter {
     // GL's own limits, which WebGPU has no word for
     GLuint texture_units = 0;
     GLuint uniform_buffer_bindings = 0;
+    GLuint viewports = 1;
+    bool compatibility = false;  ///< the context has what core profiles removed
 };
 
 /// The context is current. Fails with ErrorCode::Unsupported and one sentence that names what is

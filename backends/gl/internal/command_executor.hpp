@@ -18,8 +18,13 @@ namespace gnomon::gl {
 
 class CommandExecutor {
 public:
+    /// What the host of the context has set, and what is ours.
+    struct Surroundings {
+        GLuint vertex_array = 0;
+        GLenum provoking_vertex = GL_LAST_VERTEX_CONVENTION;  ///< with which it draws its own
+    };
     CommandExecutor(const Adapter& adapter, Objects& objects, FramebufferCache& framebuffers,
-                    GLuint vertex_array, const gpu::CommandBuffer& commands);
+                    const Surroundings& surroundings, const gpu::CommandBuffer& commands);
 
     /// Stops at the first command that the driver cannot carry out.
     [[nodiscard]] Status run();
@@ -55,6 +60,8 @@ private:
     };
 
     [[nodiscard]] Status bind_attachments(const gpu::RenderPassDesc& pass);
+    /// Draws as the host does from here on: by its clip space and its provoking vertex.
+    [[nodiscard]] Status bind_host(const gpu::RenderPassDesc& pass, const HostFramebuffer& host);
     void clear_attachments(const gpu::RenderPassDesc& pass);
     void clear_depth_stencil(const gpu::DepthStencilAttachment& attachment);
     [[nodiscard]] Status resolve(const gpu::ColorAttachment& attachment);
@@ -73,9 +80,11 @@ private:
     RenderState state_;
     Status status_;
     std::uint32_t group_depth_ = 0;
+    GLenum host_provoking_vertex_;
 
     // of the pass that is open
     const gpu::RenderPassDesc* pass_ = nullptr;
+    const TextureObject* target_ = nullptr;  ///< one of the attachments
     const PipelineObject* pipeline_ = nullptr;
     std::vector<VertexBuffer> vertex_buffers_;
     IndexBuffer index_buffer_;

@@ -15,29 +15,35 @@
 
 // clang-format off
 /// In every OpenGL 4.3.
-#define GNOMON_GL_REQUIRED_FUNCTIONS(X)                                                             \
-    X(ActiveTexture) X(AttachShader) X(BeginQuery) X(BindBuffer) X(BindBufferRange)                  \
-    X(BindFramebuffer) X(BindSampler) X(BindTexture) X(BindVertexArray) X(BindVertexBuffer)          \
-    X(BlendColor) X(BlendEquationSeparatei) X(BlendFuncSeparatei) X(BlitFramebuffer) X(BufferData)   \
-    X(BufferSubData) X(CheckFramebufferStatus) X(ClearBufferfi) X(ClearBufferfv)                     \
-    X(ClearBufferiv) X(ClearBufferuiv) X(ColorMask) X(ColorMaski) X(CompileShader)                   \
-    X(CopyBufferSubData) X(CreateProgram) X(CreateShader) X(CullFace) X(DebugMessageCallback)        \
-    X(DebugMessageControl) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteQueries)  \
-    X(DeleteSamplers) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc)           \
-    X(DepthMask) X(DepthRangeIndexed) X(DetachShader) X(Disable) X(DisableVertexAttribArray)         \
-    X(Disablei) X(DrawArraysInstancedBaseInstance) X(DrawBuffers)                                    \
-    X(DrawElementsInstancedBaseVertexBaseInstance) X(Enable) X(EnableVertexAttribArray) X(Enablei)   \
-    X(EndQuery) X(Finish) X(FramebufferTexture2D) X(FrontFace) X(GenBuffers) X(GenFramebuffers)      \
-    X(GenQueries) X(GenSamplers) X(GenTextures) X(GenVertexArrays) X(GetBufferSubData) X(GetError)   \
-    X(GetIntegerv) X(GetInternalformativ) X(GetProgramInfoLog) X(GetProgramiv)                       \
-    X(GetQueryObjectui64v) X(GetQueryiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString)             \
-    X(GetStringi) X(GetUniformLocation) X(InvalidateFramebuffer) X(LinkProgram) X(ObjectLabel)       \
-    X(LineWidth) X(PixelStorei) X(PointSize) X(PolygonMode) X(PolygonOffset) X(PopDebugGroup) X(ProvokingVertex) X(PushDebugGroup) X(QueryCounter)               \
-    X(ReadBuffer) X(ReadPixels) X(SamplerParameteri) X(ScissorIndexed) X(ShaderSource)               \
-    X(StencilFunc) X(StencilFuncSeparate) X(StencilMask) X(StencilMaskSeparate) X(StencilOp)         \
-    X(StencilOpSeparate) X(TexParameteri) X(TexStorage2D) X(TexStorage2DMultisample)                 \
-    X(TexSubImage2D) X(TextureView) X(Uniform1i) X(UseProgram) X(VertexAttribBinding)                \
-    X(VertexAttribFormat) X(VertexAttribIFormat) X(VertexBindingDivisor) X(ViewportIndexedf)
+#define GNOMON_GL_REQUIRED_FUNCTIONS(X)                                                           \
+    X(ActiveTexture) X(AttachShader) X(BeginQuery) X(BindBuffer) X(BindBufferBase)                \
+    X(BindBufferRange) X(BindFramebuffer) X(BindRenderbuffer) X(BindSampler) X(BindTexture)       \
+    X(BindVertexArray) X(BindVertexBuffer) X(BlendColor) X(BlendEquationSeparatei)                \
+    X(BlendFuncSeparatei) X(BlitFramebuffer) X(BufferData) X(BufferSubData)                       \
+    X(CheckFramebufferStatus) X(ClearBufferfi) X(ClearBufferfv) X(ClearBufferiv)                  \
+    X(ClearBufferuiv) X(ColorMask) X(ColorMaski) X(CompileShader) X(CopyBufferSubData)            \
+    X(CreateProgram) X(CreateShader) X(CullFace) X(DebugMessageCallback) X(DebugMessageControl)   \
+    X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteQueries) X(DeleteSamplers)    \
+    X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask)             \
+    X(DepthRangeIndexed) X(DetachShader) X(Disable) X(DisableVertexAttribArray) X(Disablei)       \
+    X(DrawArraysInstancedBaseInstance) X(DrawBuffers)                                             \
+    X(DrawElementsInstancedBaseVertexBaseInstance) X(Enable) X(EnableVertexAttribArray)           \
+    X(Enablei) X(EndQuery) X(Finish) X(FramebufferRenderbuffer) X(FramebufferTexture2D)           \
+    X(FrontFace) X(GenBuffers) X(GenFramebuffers) X(GenQueries) X(GenSamplers) X(GenTextures)     \
+    X(GenVertexArrays) X(GetBooleani_v) X(GetBooleanv) X(GetBufferSubData) X(GetDoublei_v)        \
+    X(GetError) X(GetFloati_v) X(GetFloatv) X(GetFramebufferAttachmentParameteriv)                \
+    X(GetInteger64i_v) X(GetIntegeri_v) X(GetIntegerv) X(GetInternalformativ)                     \
+    X(GetProgramInfoLog) X(GetProgramiv) X(GetQueryObjectui64v) X(GetQueryiv)                     \
+    X(GetRenderbufferParameteriv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetStringi)   \
+    X(GetTexLevelParameteriv) X(GetUniformLocation) X(InvalidateFramebuffer) X(IsEnabled)         \
+    X(IsEnabledi) X(LineWidth) X(LinkProgram) X(ObjectLabel) X(PixelStorei) X(PointSize)          \
+    X(PolygonMode) X(PolygonOffset) X(PopDebugGroup) X(ProvokingVertex) X(PushDebugGroup)         \
+    X(QueryCounter) X(ReadBuffer) X(ReadPixels) X(SamplerParameteri) X(ScissorIndexed)            \
+    X(ShaderSource) X(StencilFunc) X(StencilFuncSeparate) X(StencilMask) X(StencilMaskSeparate)   \
+    X(StencilOp) X(StencilOpSeparate) X(TexParameteri) X(TexStorage2D)                            \
+    X(TexStorage2DMultisample) X(TexSubImage2D) X(TextureView) X(Uniform1i) X(UseProgram)         \
+    X(VertexAttribBinding) X(VertexAttribFormat) X(VertexAttribIFormat) X(VertexBindingDivisor)   \
+    X(ViewportIndexedf)
 // clang-format on
 
 namespace gnomon::gl {

@@ -51,6 +51,14 @@ struct BufferObject {
     std::uint64_t size = 0;
 };
 
+/// The framebuffer of a texture that was imported, and how the host draws into it.
+struct HostFramebuffer {
+    GLuint name = 0;
+    bool owned = false;  ///< made here, about a texture or renderbuffer of the host's
+    bool upper_left = false;
+    GLenum clip_depth = GL_NEGATIVE_ONE_TO_ONE;
+};
+
 struct TextureObject {
     std::string label;
     GLuint name = 0;
@@ -61,6 +69,7 @@ struct TextureObject {
     gpu::Format format = gpu::Format::Undefined;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
+    std::optional<HostFramebuffer> host = std::nullopt;  ///< where it is set, there is no name
 };
 
 struct SamplerObject {

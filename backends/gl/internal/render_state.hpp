@@ -41,6 +41,9 @@ public:
     void begin();
     void end();
 
+    /// Clip space and provoking vertex as they are for all but a host's framebuffers.
+    void set_conventions();
+
     /// After work that went round this class: clears, blits, copies.
     void forget_masks();
 

@@ -68,6 +68,7 @@ struct ShadowPass::State {
     // What was prepared last; 0 for a list of no system, or after a failure.
     std::uint64_t prepared_revision = 0;
     shadows::View prepared_view;
+    bool mirrored_view = false;  // front and back exchange in all that it shows
     TargetSize target;  // zero: not known
     std::vector<PreparedLight> lights;
     std::uint64_t recording_revision = 0;  // of what record() records

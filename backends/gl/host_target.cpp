@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "internal/host_target.hpp"
+
+#include <fmt/format.h>
+
+#include "internal/debug_output.hpp"
+
+namespace gnomon::gl {
+namespace {
+
+const char* word_of(HostTarget::Kind kind) {
+    switch (kind) {
+        case HostTarget::Kind::Texture: return "texture";
+        case HostTarget::Kind::Renderbuffer: return "renderbuffer";
+        case HostTarget::Kind::Framebuffer: break;
+    }
+    return "framebuffer";
+}
+
+std::string name_of(const gpu::TextureDesc& desc, const HostTarget& host) {
+    return fmt::format("[Texture \"{}\"], the host's {} {},", desc.label, word_of(host.kind),
+                       host.name);
+}
+
+struct Size {
+    GLint width = 0;
+    GLint height = 0;
+};
+
+// A framebuffer of ours about a texture or renderbuffer of the host's. Bound afterwards.
+GLuint wrap(const GlFunctions& gl, const HostTarget& host, GLenum target, Size& size) {
+    GLuint framebuffer = 0;
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    if (host.kind == HostTarget::Kind::Texture) {
+        gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, target, host.name, 0);
+        gl.BindTexture(target, host.name);
+        gl.GetTexLevelParameteriv(target, 0, GL_TEXTURE_WIDTH, &size.width);
+        gl.GetTexLevelParameteriv(target, 0, GL_TEXTURE_HEIGHT, &size.height);
+    } else {
+        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                                   host.name);
+        gl.BindRenderbuffer(GL_RENDERBUFFER, host.name);
+        gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_WIDTH, &size.width);
+        gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_HEIGHT, &size.height);
+    }
+    const GLenum none = GL_NONE;
+    gl.DrawBuffers(1, &none);
+    gl.ReadBuffer(GL_NONE);
+    return framebuffer;
+}
+
+GLint attachment_value(const GlFunctions& gl, GLenum attachment, GLenum what) {
+    GLint type = GL_NONE;
+    gl.GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
+                                           GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
+    if (type == GL_NONE) return 0;
+    GLint value = 0;
+    gl.GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, what, &value);
+    return value;
+}
+
+// The framebuffer is bound.
+Status check_bits(const GlFunctions& gl, const gpu::TextureDesc& desc, const HostTarget& host,
+                  bool is_window) {
+    const GLenum depth = is_window ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
+    const GLenum stencil = is_window ? GL_STENCIL : GL_STENCIL_ATTACHMENT;
+    const GLint stencil_bits =
+        attachment_value(gl, stencil, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE);
+    if (stencil_bits < 8) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("{} has {} stencil bits, but shadows are counted in 8: {}.",
+                                name_of(desc, host), stencil_bits,
+                                is_window ? "ask for 8 when the window is made (GLFW_STENCIL_BITS)"
+                                          : "attach depth and stencil of GL_DEPTH24_STENCIL8 or "
+                                            "GL_DEPTH32F_STENCIL8"));
+    }
+    const GLint depth_bits = attachment_value(gl, depth, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+    if (depth_bits == 0) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("{} has no depth buffer, against which shadow volumes are held: "
+                                "attach the one that the scene was drawn with.",
+                                name_of(desc, host)));
+    }
+    const bool is_float =
+        attachment_value(gl, depth, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
+    if (is_float != (desc.format == gpu::Format::Depth32FloatStencil8)) {
+        return fail(
+            ErrorCode::InvalidInput,
+            fmt::format("{} has depth in {} of {} bits, which is {}, not what was said.",
+                        name_of(desc, host), is_float ? "floats" : "normalised integers",
+                        depth_bits, is_float ? "Depth32FloatStencil8" : "Depth24UnormStencil8"));
+    }
+    GLint samples = 0;
+    gl.GetIntegerv(GL_SAMPLES, &samples);
+    samples = samples > 1 ? samples : 1;
+    if (static_cast<std::uint32_t>(samples) != desc.sample_count) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("{} has {} samples a pixel, not {}.", name_of(desc, host), samples,
+                                desc.sample_count));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<TextureObject> import_host_target(const Adapter& adapter, const gpu::TextureDesc& desc,
+                                         const HostTarget& host) {
+    const GlFunctions& gl = adapter.gl;
+    if (!gpu::has_stencil(desc.format) || desc.usage != gpu::TextureUsage::RenderAttachment) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("{} can only be a depth-stencil format, with the usage "
+                                "RenderAttachment and no other.",
+                                name_of(desc, host)));
+    }
+    const bool is_framebuffer = host.kind == HostTarget::Kind::Framebuffer;
+    if (!is_framebuffer && host.name == 0) {
+        return fail(ErrorCode::InvalidInput, fmt::format("{} is none: 0 names no {}.",
+                                                         name_of(desc, host), word_of(host.kind)));
+    }
+    TextureObject texture{
+        .label = desc.label,
+        .target = desc.sample_count > 1 ? GLenum{GL_TEXTURE_2D_MULTISAMPLE} : GLenum{GL_TEXTURE_2D},
+        .format = desc.format,
+        .width = desc.width,
+        .height = desc.height};
+    texture.host =
+        HostFramebuffer{.name = host.name,
+                        .owned = !is_framebuffer,
+                        .upper_left = host.clip_upper_left,
+                        .clip_depth = host.clip_zero_to_one ? GLenum{GL_ZERO_TO_ONE}
+                                                            : GLenum{GL_NEGATIVE_ONE_TO_ONE}};
+    drop_errors(gl);  // of the host's
+    Size size{static_cast<GLint>(desc.width), static_cast<GLint>(desc.height)};
+    if (is_framebuffer) {
+        gl.BindFramebuffer(GL_FRAMEBUFFER, host.name);
+    } else {
+        texture.host->name = wrap(gl, host, texture.target, size);
+    }
+    Status usable = check_errors(gl, fmt::format("Importing {}", name_of(desc, host)));
+    if (usable && (size.width != static_cast<GLint>(desc.width) ||
+                   size.height != static_cast<GLint>(desc.height))) {
+        usable = fail(ErrorCode::InvalidInput,
+                      fmt::format("{} has {} x {} pixels, not {} x {}.", name_of(desc, host),
+                                  size.width, size.height, desc.width, desc.height));
+    }
+    // Of a framebuffer that is not complete nothing but its attachments can be asked.
+    const bool is_window = is_framebuffer && host.name == 0;
+    const GLenum status = usable ? gl.CheckFramebufferStatus(GL_FRAMEBUFFER) : GLenum{GL_NONE};
+    if (usable && status != GL_FRAMEBUFFER_COMPLETE) {
+        usable = fail(ErrorCode::Unsupported,
+                      fmt::format("{} cannot be drawn to as depth and stencil (framebuffer status "
+                                  "0x{:04X}): complete it first, with depth and stencil of "
+                                  "GL_DEPTH24_STENCIL8 or GL_DEPTH32F_STENCIL8.",
+                                  name_of(desc, host), status));
+    }
+    if (usable) usable = check_bits(gl, desc, host, is_window);
+    if (!usable) {
+        if (texture.host->owned) gl.DeleteFramebuffers(1, &texture.host->name);
+        return forward_error(usable);
+    }
+    return texture;
+}
+
+}  // namespace gnomon::gl
