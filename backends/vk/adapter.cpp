@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -93,13 +94,14 @@ bool has_features(const Instance& instance, VkPhysicalDevice device, VkFormat fo
 }
 
 std::optional<std::uint32_t> find_queue_family(const Instance& instance, VkPhysicalDevice device,
+                                               std::optional<std::uint32_t> of_host,
                                                std::uint32_t& timestamp_bits) {
     std::uint32_t count = 0;
     instance.fn.GetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     instance.fn.GetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     for (std::uint32_t i = 0; i < count; ++i) {
-        if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0) {
+        if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0 || of_host.value_or(i) != i) {
             continue;
         }
         if (instance.surface != VK_NULL_HANDLE) {
@@ -188,8 +190,8 @@ gpu::Limits find_limits(const Instance& instance, const Adapter& adapter) {
 }
 
 /// The adapter, or as the error's message why this device does not fit.
-Result<Adapter> examine(const Instance& instance, VkPhysicalDevice device,
-                        const Disabled& disabled) {
+Result<Adapter> examine(const Instance& instance, VkPhysicalDevice device, const Disabled& disabled,
+                        std::optional<std::uint32_t> queue_family_of_host = std::nullopt) {
     Adapter adapter;
     adapter.handle = device;
     instance.fn.GetPhysicalDeviceProperties(device, &adapter.properties);
@@ -201,7 +203,11 @@ Result<Adapter> examine(const Instance& instance, VkPhysicalDevice device,
                                 VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version)));
     }
     const std::optional<std::uint32_t> family =
-        find_queue_family(instance, device, adapter.timestamp_bits);
+        find_queue_family(instance, device, queue_family_of_host, adapter.timestamp_bits);
+    if (!family && queue_family_of_host) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("its queue family {} has no graphics", *queue_family_of_host));
+    }
     if (!family) {
         return fail(ErrorCode::Unsupported, instance.surface != VK_NULL_HANDLE
                                                 ? "no graphics queue of it presents to the window"
@@ -308,6 +314,32 @@ Result<Adapter> choose_adapter(const Instance& instance, const BackendOptions& o
     }
     return fail(ErrorCode::Unsupported,
                 fmt::format("No Vulkan device fits: {}.", fmt::join(reasons, "; ")));
+}
+
+Result<Adapter> adopt_adapter(const Instance& instance, const HostDevice& host) {
+    // By the names of the options that switch features off.
+    constexpr std::array<std::pair<std::string_view, const char*>, 6> names{
+        {{"depthClamp", "depthClamp"},
+         {"depthBiasClamp", "depthBiasClamp"},
+         {"depthBounds", "depthBounds"},
+         {"independentBlend", "independentBlend"},
+         {"occlusionQueryPrecise", "occlusionQueryPrecise"},
+         {"sampleRateShading", "sampleRate"}}};
+    std::vector<std::string> disabled;
+    for (const auto& [name, option] : names) {
+        const bool enabled = std::find(host.enabled_features.begin(), host.enabled_features.end(),
+                                       name) != host.enabled_features.end();
+        if (!enabled) {
+            disabled.emplace_back(option);
+        }
+    }
+    Result<Adapter> adapter = examine(instance, static_cast<VkPhysicalDevice>(host.physical_device),
+                                      Disabled{disabled}, host.queue_family);
+    if (!adapter) {
+        return fail(adapter.error().code, fmt::format("The host's Vulkan device does not fit: {}.",
+                                                      adapter.error().message));
+    }
+    return adapter;
 }
 
 }  // namespace gnomon::vk

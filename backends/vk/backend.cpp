@@ -20,8 +20,22 @@ Result<std::unique_ptr<gpu::Backend>> create_backend(const BackendOptions& optio
     return backend;
 }
 
-VulkanBackend::VulkanBackend(std::unique_ptr<Device> device)
+Result<AdoptedDevice> adopt_device(const HostDevice& host) {
+    Result<std::unique_ptr<Device>> device = Device::adopt(host);
+    if (!device) {
+        return forward_error(device);
+    }
+    auto commands = std::make_shared<HostCommands>();
+    auto backend = std::make_unique<VulkanBackend>(std::move(*device), commands);
+    if (const Status initialised = backend->initialise({}); !initialised) {
+        return forward_error(initialised);
+    }
+    return AdoptedDevice{std::move(backend), std::move(commands)};
+}
+
+VulkanBackend::VulkanBackend(std::unique_ptr<Device> device, std::shared_ptr<HostCommands> commands)
     : device_(std::move(device)),
+      host_commands_(std::move(commands)),
       memory_(*device_),
       descriptor_pools_(*device_),
       queue_(*device_),
@@ -32,6 +46,9 @@ VulkanBackend::VulkanBackend(std::unique_ptr<Device> device)
 Status VulkanBackend::initialise(const BackendOptions& options) {
     if (const Status initialised = queue_.initialise(); !initialised) {
         return initialised;
+    }
+    if (host_commands_ != nullptr) {
+        queue_.share_with_host();
     }
     if (const Status initialised = pipeline_maker_.initialise(); !initialised) {
         return initialised;
@@ -58,6 +75,15 @@ Status VulkanBackend::write_texture(gpu::TextureId id, std::uint32_t mip_level,
 }
 
 Status VulkanBackend::submit(const gpu::CommandBuffer& commands) {
+    if (host_commands_ != nullptr && host_commands_->command_buffer != nullptr) {
+        // Uploads run before what the host submits.
+        if (const Status uploaded = queue_.submit(); !uploaded) {
+            return uploaded;
+        }
+        CommandRecorder recorder{*device_, render_passes_, resources_,
+                                 static_cast<VkCommandBuffer>(host_commands_->command_buffer)};
+        return recorder.record(commands);
+    }
     const Result<VkCommandBuffer> out = queue_.commands();
     if (!out) {
         return forward_error(out);

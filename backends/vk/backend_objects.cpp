@@ -55,6 +55,23 @@ Status VulkanBackend::create_texture(gpu::TextureId id, const gpu::TextureDesc& 
     return {};
 }
 
+Status VulkanBackend::import_texture(gpu::TextureId id, const gpu::TextureDesc& desc,
+                                     const gpu::NativeTexture& native) {
+    const auto* host = std::any_cast<HostImage>(&native);
+    if (host == nullptr) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("[Texture \"{}\"] cannot be imported: what Vulkan imports is a "
+                                "vk::HostImage.",
+                                desc.label));
+    }
+    Result<Texture> texture = gnomon::vk::import_texture(*device_, desc, *host);
+    if (!texture) {
+        return forward_error(texture);
+    }
+    resources_.textures.insert(id, std::move(*texture));
+    return {};
+}
+
 Status VulkanBackend::create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& desc) {
     const Result<VkSampler> sampler = make_sampler(*device_, desc);
     if (!sampler) {

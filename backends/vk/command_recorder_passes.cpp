@@ -132,6 +132,16 @@ void CommandRecorder::end_pass() {
     }
     end_label();
     note_stores(*pass_);
+    if (pass_->depth_stencil) {
+        Texture& texture = resources_.textures[pass_->depth_stencil->texture];
+        if (texture.host_layout) {
+            Dependency dependency;
+            texture.tracker.give_back(*texture.host_layout, dependency);
+            BarrierBatch barriers;
+            barriers.add_image(dependency, texture.handle, texture.aspects);
+            barriers.flush(device_.fn, out_);
+        }
+    }
     pass_ = nullptr;
 }
 
@@ -168,6 +178,8 @@ void CommandRecorder::prepare_attachment(Texture& texture, Usage usage, BarrierB
     if (texture.mip_level_count > 1) {
         // The pass clears level 0 alone.
         define_contents(device_, out_, texture);
+    } else if (texture.host_layout) {
+        texture.tracker.lent(*texture.host_layout);
     } else if (texture.undefined == texture.aspects) {
         texture.tracker.forget_contents();
     }

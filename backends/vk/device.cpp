@@ -3,6 +3,9 @@
 // Makes the logical device.
 #include "internal/device.hpp"
 
+#include <array>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "internal/error.hpp"
@@ -49,8 +52,39 @@ Result<std::unique_ptr<Device>> Device::create(const BackendOptions& options) {
     return self;
 }
 
+Result<std::unique_ptr<Device>> Device::adopt(const HostDevice& host) {
+    const std::array<std::pair<const void*, const char*>, 5> handles{
+        {{host.get_instance_proc_addr, "get_instance_proc_addr"},
+         {host.instance, "instance"},
+         {host.physical_device, "physical_device"},
+         {host.device, "device"},
+         {host.queue, "queue"}}};
+    for (const auto& [handle, name] : handles) {
+        if (handle == nullptr) {
+            return fail(ErrorCode::InvalidInput,
+                        fmt::format("HostDevice::{} is null: there is nothing to adopt.", name));
+        }
+    }
+    std::unique_ptr<Device> self{new Device};
+    self->owned_ = false;
+    Result<std::unique_ptr<Instance>> instance = Instance::adopt(host);
+    if (!instance) {
+        return forward_error(instance);
+    }
+    self->instance = std::move(*instance);
+    Result<Adapter> adapter = adopt_adapter(*self->instance, host);
+    if (!adapter) {
+        return forward_error(adapter);
+    }
+    self->adapter = std::move(*adapter);
+    self->handle = static_cast<VkDevice>(host.device);
+    self->fn = load_device_functions(self->instance->fn, self->handle);
+    self->queue = static_cast<VkQueue>(host.queue);
+    return self;
+}
+
 Device::~Device() {
-    if (handle != VK_NULL_HANDLE) {
+    if (handle != VK_NULL_HANDLE && owned_) {
         fn.DestroyDevice(handle, nullptr);
     }
 }

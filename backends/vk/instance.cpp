@@ -172,8 +172,24 @@ Result<std::unique_ptr<Instance>> Instance::create(const BackendOptions& options
     return self;
 }
 
+Result<std::unique_ptr<Instance>> Instance::adopt(const HostDevice& host) {
+    std::unique_ptr<Instance> self{new Instance};
+    self->owned_ = false;
+    self->handle = static_cast<VkInstance>(host.instance);
+    GlobalFunctions global;
+    global.GetInstanceProcAddr =
+        reinterpret_cast<PFN_vkGetInstanceProcAddr>(host.get_instance_proc_addr);
+    self->fn = load_instance_functions(global, self->handle);
+    if (self->fn.GetPhysicalDeviceProperties2 == nullptr || self->fn.GetDeviceProcAddr == nullptr) {
+        return fail(ErrorCode::Unsupported,
+                    "The host's Vulkan instance does not know what Vulkan 1.1 has: make it with an "
+                    "apiVersion of VK_API_VERSION_1_1 or later.");
+    }
+    return self;
+}
+
 Instance::~Instance() {
-    if (handle == VK_NULL_HANDLE) {
+    if (handle == VK_NULL_HANDLE || !owned_) {
         return;
     }
     if (surface != VK_NULL_HANDLE) {

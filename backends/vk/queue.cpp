@@ -119,6 +119,12 @@ Status Queue::submit(const SubmitSemaphores& semaphores) {
     if (const Status usable = check_not_lost(); !usable) {
         return usable;
     }
+    if (!recording_ && shared_ && !deferred_.empty()) {
+        // An empty submission, whose fence tells that the host's are done.
+        if (const Result<VkCommandBuffer> begun = commands(); !begun) {
+            return forward_error(begun);
+        }
+    }
     if (!recording_) {
         return retire_finished();
     }
@@ -200,7 +206,7 @@ Status Queue::retire_finished() {
 }
 
 void Queue::defer(std::function<void()> destroy) {
-    const std::uint64_t serial = recording_ ? recording_serial() : submitted_;
+    const std::uint64_t serial = recording_ || shared_ ? recording_serial() : submitted_;
     if (serial <= completed_) {
         destroy();
     } else {

@@ -93,6 +93,22 @@ void Tracker::acquired(VkPipelineStageFlags stages) {
     layout_ = VK_IMAGE_LAYOUT_UNDEFINED;
 }
 
+void Tracker::lent(VkImageLayout layout) {
+    write_stages_ = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    write_access_ = VK_ACCESS_MEMORY_WRITE_BIT;
+    readers_ = 0;
+    layout_ = layout;
+}
+
+void Tracker::give_back(VkImageLayout layout, Dependency& dependency) {
+    dependency = {.source_stages = write_stages_,
+                  .source_access = write_access_,
+                  .destination_stages = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                  .destination_access = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT,
+                  .old_layout = layout_,
+                  .new_layout = layout};
+}
+
 bool Tracker::use(Usage usage, VkImageLayout layout, Dependency& dependency) {
     const UsageInfo info = info_of(usage);
     const bool moves = layout != layout_;

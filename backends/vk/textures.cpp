@@ -124,6 +124,18 @@ Status fill_in(Device& device, Memory& memory, const gpu::TextureDesc& desc, Tex
     return make_views(device, desc, texture);
 }
 
+Texture described(const gpu::TextureDesc& desc) {
+    Texture texture;
+    texture.subject = fmt::format("texture '{}'", desc.label);
+    texture.format = desc.format;
+    texture.width = desc.width;
+    texture.height = desc.height;
+    texture.mip_level_count = desc.mip_level_count;
+    texture.sample_count = desc.sample_count;
+    texture.aspects = aspects_of(desc.format);
+    return texture;
+}
+
 }  // namespace
 
 VkImageView Texture::sampled(gpu::Aspect aspect) const {
@@ -135,17 +147,39 @@ VkImageView Texture::sampled(gpu::Aspect aspect) const {
 }
 
 Result<Texture> make_texture(Device& device, Memory& memory, const gpu::TextureDesc& desc) {
-    Texture texture;
-    texture.subject = fmt::format("texture '{}'", desc.label);
-    texture.format = desc.format;
-    texture.width = desc.width;
-    texture.height = desc.height;
-    texture.mip_level_count = desc.mip_level_count;
-    texture.sample_count = desc.sample_count;
-    texture.aspects = aspects_of(desc.format);
+    Texture texture = described(desc);
     texture.undefined = texture.aspects;
     if (const Status made = fill_in(device, memory, desc, texture); !made) {
         free_texture(device, memory, texture);
+        return forward_error(made);
+    }
+    return texture;
+}
+
+Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
+                               const HostImage& host) {
+    Texture texture = described(desc);
+    if (!gpu::has_stencil(desc.format) || desc.usage != gpu::TextureUsage::RenderAttachment) {
+        return fail(
+            ErrorCode::Unsupported,
+            fmt::format("The host's image of {} can only be of a depth-stencil format, with "
+                        "the usage RenderAttachment and no other.",
+                        texture.subject));
+    }
+    if (host.image == 0) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("The host's image of {} is VK_NULL_HANDLE.", texture.subject));
+    }
+    if (host.layout == VK_IMAGE_LAYOUT_UNDEFINED || host.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("The host's image of {} is in a layout in which it has no contents "
+                                "({}): say the one that its depth was drawn in.",
+                                texture.subject, host.layout));
+    }
+    texture.handle = reinterpret_cast<VkImage>(host.image);
+    texture.host_layout = static_cast<VkImageLayout>(host.layout);
+    if (const Status made = make_view(device, texture, texture.aspects, 1, texture.attachment);
+        !made) {
         return forward_error(made);
     }
     return texture;
@@ -155,6 +189,9 @@ void free_texture(Device& device, Memory& memory, Texture& texture) {
     for (VkImageView view : {texture.attachment, texture.sampled_color, texture.sampled_depth,
                              texture.sampled_stencil}) {
         device.fn.DestroyImageView(device.handle, view, nullptr);
+    }
+    if (texture.host_layout) {
+        return;
     }
     device.fn.DestroyImage(device.handle, texture.handle, nullptr);
     memory.free(texture.memory);

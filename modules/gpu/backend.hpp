@@ -20,7 +20,7 @@
 
 namespace gnomon::gpu {
 
-/// A texture that the host made, in words of the backend's own: gl::HostTarget.
+/// A texture that the host made, in words of the backend's own: gl::HostTarget, vk::HostImage.
 using NativeTexture = std::any;
 
 class Backend {

@@ -28,4 +28,7 @@ struct Adapter {
 [[nodiscard]] Result<Adapter> choose_adapter(const Instance& instance,
                                              const BackendOptions& options);
 
+/// The host's, with the features that it says are enabled and no others.
+[[nodiscard]] Result<Adapter> adopt_adapter(const Instance& instance, const HostDevice& host);
+
 }  // namespace gnomon::vk

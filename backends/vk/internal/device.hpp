@@ -13,6 +13,8 @@ namespace gnomon::vk {
 class Device {
 public:
     [[nodiscard]] static Result<std::unique_ptr<Device>> create(const BackendOptions& options);
+    /// The host's, which is not destroyed here.
+    [[nodiscard]] static Result<std::unique_ptr<Device>> adopt(const HostDevice& host);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -30,6 +32,7 @@ public:
 
 private:
     Device() = default;
+    bool owned_ = true;
     void set_name_of(VkObjectType type, std::uint64_t object, const std::string& name) const;
 };
 

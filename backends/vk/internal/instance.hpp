@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <gnomon/vk/backend.hpp>
+#include <gnomon/vk/host_device.hpp>
 
 #include "internal/functions.hpp"
 
@@ -14,6 +15,8 @@ namespace gnomon::vk {
 class Instance {
 public:
     [[nodiscard]] static Result<std::unique_ptr<Instance>> create(const BackendOptions& options);
+    /// The host's, which is not destroyed here.
+    [[nodiscard]] static Result<std::unique_ptr<Instance>> adopt(const HostDevice& host);
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
@@ -27,6 +30,8 @@ public:
 
 private:
     Instance() = default;
+
+    bool owned_ = true;
 
     // The validation layer speaks until vkDestroyInstance has returned: the sink outlives it.
     gpu::MessageSink sink_;

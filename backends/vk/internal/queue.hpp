@@ -29,6 +29,10 @@ public:
     Queue& operator=(const Queue&) = delete;
     [[nodiscard]] Status initialise();
 
+    /// A host's commands may use objects, too, and it submits them after our last submission and
+    /// before our next: what is destroyed waits for that one.
+    void share_with_host() { shared_ = true; }
+
     /// The command buffer being recorded; begins one when there is none.
     [[nodiscard]] Result<VkCommandBuffer> commands();
 
@@ -71,6 +75,7 @@ private:
     [[nodiscard]] Status check_not_lost() const;
 
     Device& device_;
+    bool shared_ = false;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     std::vector<Slot> free_;
     std::optional<Slot> recording_;

@@ -48,6 +48,10 @@ public:
     void forget_contents() { layout_ = VK_IMAGE_LAYOUT_UNDEFINED; }
     /// A swapchain image: what the semaphore waits for has happened at these stages.
     void acquired(VkPipelineStageFlags stages);
+    /// A host's image: it may have been written by anything that came before.
+    void lent(VkImageLayout layout);
+    /// Gives it back: whatever comes after may use it, in that layout.
+    void give_back(VkImageLayout layout, Dependency& dependency);
 
 private:
     bool use(Usage usage, VkImageLayout layout, Dependency& dependency);

@@ -3,9 +3,11 @@
 // Textures: an image, its views, its layout and which of its contents are defined; and samplers.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <gnomon/gpu/descriptors.hpp>
+#include <gnomon/vk/host_device.hpp>
 
 #include "internal/memory.hpp"
 #include "internal/sync.hpp"
@@ -30,12 +32,16 @@ struct Texture {
     VkImageView sampled_depth = VK_NULL_HANDLE;    ///< null where the usage or the format
     VkImageView sampled_stencil = VK_NULL_HANDLE;  ///< does not have it
     Tracker tracker;
+    /// Of an image that the host made: the layout that it is in before and after each pass.
+    std::optional<VkImageLayout> host_layout = std::nullopt;
 
     [[nodiscard]] VkImageView sampled(gpu::Aspect aspect) const;
 };
 
 [[nodiscard]] Result<Texture> make_texture(Device& device, Memory& memory,
                                            const gpu::TextureDesc& desc);
+[[nodiscard]] Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
+                                             const HostImage& host);
 void free_texture(Device& device, Memory& memory, Texture& texture);
 
 /// Gathers the transition before a use.

@@ -15,7 +15,9 @@ namespace gnomon::vk {
 
 class VulkanBackend final : public gpu::Backend {
 public:
-    explicit VulkanBackend(std::unique_ptr<Device> device);
+    /// `commands`: of an adopted device, or null.
+    explicit VulkanBackend(std::unique_ptr<Device> device,
+                           std::shared_ptr<HostCommands> commands = nullptr);
     ~VulkanBackend() override;
     VulkanBackend(const VulkanBackend&) = delete;
     VulkanBackend& operator=(const VulkanBackend&) = delete;
@@ -25,6 +27,8 @@ public:
 
     Status create_buffer(gpu::BufferId id, const gpu::BufferDesc& desc) override;
     Status create_texture(gpu::TextureId id, const gpu::TextureDesc& desc) override;
+    Status import_texture(gpu::TextureId id, const gpu::TextureDesc& desc,
+                          const gpu::NativeTexture& native) override;
     Status create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& desc) override;
     Status create_shader(gpu::ShaderId id, const gpu::ShaderDesc& desc) override;
     Status create_bind_group_layout(gpu::BindGroupLayoutId id,
@@ -71,6 +75,7 @@ private:
 
     // In the order in which each needs those before it.
     std::unique_ptr<Device> device_;
+    std::shared_ptr<HostCommands> host_commands_;
     Memory memory_;
     DescriptorPools descriptor_pools_;
     Queue queue_;
