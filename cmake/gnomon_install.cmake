@@ -30,6 +30,8 @@ if(TARGET gnomon_shadow_pass)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/shaders)
 endif()
 
+include(gnomon_pkgconfig)
+
 install(EXPORT gnomonTargets NAMESPACE gnomon:: DESTINATION ${GNOMON_PACKAGE_DIR})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/gnomonConfig.cmake.in
   ${PROJECT_BINARY_DIR}/package/gnomonConfig.cmake INSTALL_DESTINATION ${GNOMON_PACKAGE_DIR})

@@ -60,8 +60,8 @@ using GetProcAddress = std::function<void*(const char* name)>;
 
 /// What a host finds of OpenGL's state after a call of gnomon's.
 enum class HostState : std::uint8_t {
-    Restored,  ///< what it was. Some hundred queries of state for each submission, a dozen for
-               ///< other calls
+    Restored,  ///< what it was. All that drawing touches is queried for each submission, which may
+               ///< make a threaded driver wait; a few bindings for other calls
     Defaults,  ///< OpenGL's defaults, in all that gnomon touches
 };
 

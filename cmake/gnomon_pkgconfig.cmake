@@ -1,0 +1,58 @@
+# For builds without CMake: one file a component, gnomon-shadows.pc and so on. The libraries are static, so that what they
+# stand on is named for whoever links. Components that need what has no such file itself have none.
+set(GNOMON_PKGCONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH prefix_from_pkgconfig /${GNOMON_PKGCONFIG_DIR} /)
+string(REGEX REPLACE "/$" "" prefix_from_pkgconfig "${prefix_from_pkgconfig}")
+
+set(without_pkgconfig)
+foreach(library IN LISTS GNOMON_LIBRARIES)
+  get_target_property(component ${library} EXPORT_NAME)
+  get_target_property(type ${library} TYPE)
+  if(type STREQUAL "INTERFACE_LIBRARY")
+    get_target_property(below ${library} INTERFACE_LINK_LIBRARIES)
+    set(libs)
+  else()
+    get_target_property(below ${library} LINK_LIBRARIES)
+    set(libs "-L\${libdir} -lgnomon_${component}")
+  endif()
+  set(requires)
+  set(complete TRUE)
+  foreach(item IN LISTS below)
+    if(item MATCHES "^gnomon::(.+)$")
+      if(CMAKE_MATCH_1 IN_LIST without_pkgconfig)
+        set(complete FALSE)
+      endif()
+      list(APPEND requires gnomon-${CMAKE_MATCH_1})
+    elseif(item STREQUAL "glm::glm")
+      list(APPEND requires glm)
+    elseif(item STREQUAL "fmt::fmt")
+      list(APPEND requires fmt)
+    elseif(item STREQUAL "glfw")
+      list(APPEND requires glfw3)
+    elseif(item STREQUAL "TinyGLTF::TinyGLTF")
+      list(APPEND requires tinygltf)
+    elseif(item STREQUAL CMAKE_DL_LIBS)
+      string(APPEND libs " -l${item}")
+    elseif(NOT item MATCHES "^(tl::expected|nlohmann_json::nlohmann_json|\\$<BUILD_INTERFACE:.*)$")  # headers alone
+      set(complete FALSE)
+    endif()
+  endforeach()
+  if(NOT complete)
+    list(APPEND without_pkgconfig ${component})
+    continue()
+  endif()
+  list(JOIN requires " " requires)
+  file(WRITE ${PROJECT_BINARY_DIR}/package/gnomon-${component}.pc
+"prefix=\${pcfiledir}/${prefix_from_pkgconfig}
+libdir=\${prefix}/${CMAKE_INSTALL_LIBDIR}
+includedir=\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}
+
+Name: gnomon-${component}
+Description: ${PROJECT_DESCRIPTION} (${component})
+Version: ${PROJECT_VERSION}
+Requires: ${requires}
+Libs: ${libs}
+Cflags: -I\${includedir}
+")
+  install(FILES ${PROJECT_BINARY_DIR}/package/gnomon-${component}.pc DESTINATION ${GNOMON_PKGCONFIG_DIR})
+endforeach()

@@ -1,0 +1,20 @@
+# Programs outside gnomon that know of it by pkg-config alone: the CPU core, and the GPU interface on top of it. Neither names
+# what it does not need.
+include(${CMAKE_CURRENT_LIST_DIR}/run_step.cmake)
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
+set(ENV{PKG_CONFIG_PATH} ${PREFIX}/${LIBDIR}/pkgconfig)
+foreach(pair IN ITEMS gnomon-shadows:closed_volume.cpp gnomon-gpu:package_all/null_device.cpp)
+  string(REPLACE ":" ";" pair "${pair}")
+  list(GET pair 0 package)
+  list(GET pair 1 source)
+  run_step("Asking for ${package}" ${PKG_CONFIG} --cflags --libs ${package})
+  string(STRIP "${step_output}" words)
+  if(package STREQUAL "gnomon-shadows" AND words MATCHES "fmt|glfw|GL|vulkan")
+    message(FATAL_ERROR "gnomon-shadows names more than it needs: ${words}")
+  endif()
+  separate_arguments(words)
+  run_step("Compiling with ${package}" ${COMPILER} -std=c++20 ${CMAKE_CURRENT_LIST_DIR}/${source} ${words}
+    -o ${SCRATCH}/${package})
+  run_step("Running what was made with ${package}" ${SCRATCH}/${package})
+endforeach()
