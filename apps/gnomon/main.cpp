@@ -20,6 +20,9 @@
 #include "inspect_command.hpp"
 #include "render_options.hpp"
 #include "scene_arguments.hpp"
+#if GNOMON_HAS_PROFILE
+#include "profile/profile_arguments.hpp"
+#endif
 #if GNOMON_HAS_REPORT
 #include "report_arguments.hpp"
 #endif
@@ -143,6 +146,17 @@ int run(int argc, char** argv) {
     const CLI::App* report_app = cli::add_report(app, report_options, list_techniques);
     commands.emplace_back("report");
 #endif
+#if GNOMON_HAS_PROFILE
+    cli::ProfileOptions profile;
+    const CLI::App* profile_app = cli::add_profile(app, profile);
+    commands.emplace_back("profile");
+#else
+    if (argc > 1 && std::string_view(argv[1]) == "profile") {
+        return report({ErrorCode::Unsupported,
+                       "This build has no profile: ERFA or cairo was not found when it was made "
+                       "(packages liberfa-dev and libcairo2-dev)."});
+    }
+#endif
 #if GNOMON_HAS_VIEW
     cli::ViewOptions view;
     const CLI::App* view_app = cli::add_view(app, view);
@@ -201,6 +215,12 @@ int run(int argc, char** argv) {
             return 0;
         }
         const Status done = cli::run_report(report_options);
+        return done ? 0 : report(done.error());
+    }
+#endif
+#if GNOMON_HAS_PROFILE
+    if (profile_app->parsed()) {
+        const Status done = cli::run_profile(profile);
         return done ? 0 : report(done.error());
     }
 #endif

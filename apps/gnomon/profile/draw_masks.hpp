@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+//
+// The masks of a study, drawn into files, one a step: those that are not there already.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "profile/day_result.hpp"
+#include "profile/site_model.hpp"
+#include "profile/study.hpp"
+
+namespace gnomon::cli {
+
+/// One mask: of a step of a day, or of what lies under a roof, which has no step.
+struct MaskJob {
+    MaskKind kind = MaskKind::Plan;
+    std::string file;  ///< in the folder of masks
+    std::string what;  ///< for people
+    glm::dvec3 towards_sun{0.0, 0.0, 1.0};
+    bool is_open_mask = false;
+};
+
+/// All masks of a study, in the order in which they are dealt out to shards. Fails as make_steps()
+/// does, for any of its dates.
+[[nodiscard]] Result<std::vector<MaskJob>> mask_jobs(const Study& study);
+
+struct MaskShape {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+};
+[[nodiscard]] MaskShape shape_of(const Study& study, MaskKind kind);
+
+/// What masks are drawn of.
+struct MaskSubjects {
+    std::vector<shadows::Caster> casters;
+    std::vector<shadows::Caster> before;
+    std::vector<sun_study::SurfacePoint> points;
+};
+
+/// Draws those that fall to the shard and are not in the folder, each written whole or not at all.
+/// Says how far it is on a terminal. Fails as the device does, and with ErrorCode::InvalidInput
+/// where something lies above every cell.
+[[nodiscard]] Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
+                                const MaskSubjects& subjects, const ProfileOptions& options,
+                                const std::filesystem::path& masks);
+
+}  // namespace gnomon::cli

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+//
+// gnomon profile: from a model, a place and a day to masks, and from masks to what is made of them.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "arguments.hpp"
+#include "files.hpp"
+#include "profile/day_result.hpp"
+#include "profile/draw_masks.hpp"
+#include "profile/mask_files.hpp"
+#include "profile/study_files.hpp"
+
+namespace gnomon::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double above_lowest_m = 0.1;
+constexpr std::uint32_t most_cells_a_side = 1U << 20U;
+constexpr std::size_t most_points = 2'000'000;
+
+Status need(bool given, const char* option) {
+    if (given) return {};
+    return fail(ErrorCode::InvalidInput,
+                fmt::format("profile needs {}; see gnomon profile --help.", option));
+}
+
+Status check_given(const ProfileOptions& o) {
+    for (const Status& status :
+         {need(!o.model.empty(), "a MODEL"), need(o.latitude_deg.has_value(), "--lat"),
+          need(o.longitude_deg.has_value(), "--lon"), need(!o.dates.empty(), "--date"),
+          need(o.from.has_value(), "--from"), need(o.to.has_value(), "--to")}) {
+        if (!status) return status;
+    }
+    return {};
+}
+
+// All casters, and as much around them as shadows of 45 degrees are long.
+Result<sun_study::PlanGrid> grid_of(const ProfileOptions& o, const SiteModel& site) {
+    const double height = o.height_m.value_or(site.min_plan.z + above_lowest_m);
+    glm::dvec2 min(site.min_plan);
+    glm::dvec2 max(site.max_plan);
+    if (o.area_m) {
+        min = {(*o.area_m)[0], (*o.area_m)[1]};
+        max = {(*o.area_m)[2], (*o.area_m)[3]};
+    } else {
+        const double margin = std::max(site.max_plan.z - height, o.cell_m);
+        min = glm::floor((min - margin) / o.cell_m) * o.cell_m;
+        max += margin;
+    }
+    return sun_study::make_grid(min, max, o.cell_m, height, most_cells_a_side);
+}
+
+Result<Study> study_of(const ProfileOptions& o, const SiteModel& site) {
+    const auto grid = grid_of(o, site);
+    if (!grid) return forward_error(grid);
+    Study study;
+    study.model = fs::path(o.model).filename().string();
+    study.model_hash = site.hash;
+    study.casters = o.casters.value_or("");
+    study.receivers = o.receivers.value_or("");
+    study.spacing_m = o.receivers ? o.spacing_m : 0.0;
+    study.latitude_deg = *o.latitude_deg;
+    study.longitude_deg = *o.longitude_deg;
+    study.elevation_m = o.elevation_m;
+    study.air = {.pressure_mbar = o.pressure_mbar, .temperature_c = o.temperature_c};
+    study.dates = o.dates;
+    study.from = *o.from;
+    study.to = *o.to;
+    study.step = o.step;
+    study.offset = o.offset;
+    study.north_deg = o.north_deg;
+    study.min_altitude_deg = o.min_altitude_deg;
+    study.skip_after_sunrise_min = o.skip_after_sunrise_min;
+    study.skip_before_sunset_min = o.skip_before_sunset_min;
+    study.grid = *grid;
+    return study;
+}
+
+std::string whole_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The folder with its study.json. Masks of another study that were in it are removed.
+Status prepare_folder(const Study& study, const fs::path& out) {
+    std::error_code error;
+    fs::create_directories(out / "masks", error);
+    if (error) {
+        return fail(ErrorCode::Io,
+                    fmt::format("{} cannot be made: {}.", out.string(), error.message()));
+    }
+    const std::string text = to_json(study).dump(2) + "\n";
+    if (whole_text(out / "study.json") == text) return {};
+    for (const auto& entry : fs::directory_iterator(out / "masks", error)) {
+        if (entry.path().extension() == ".npy") fs::remove(entry.path(), error);
+    }
+    OutputFiles file;
+    if (const Status added = file.add(out / "study.json", text); !added) return added;
+    return file.commit();
+}
+
+Result<Study> read_study(const fs::path& folder) {
+    const fs::path path = folder / "study.json";
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) {
+        return fail(ErrorCode::Io,
+                    fmt::format("{} is not there: {} is no folder of gnomon profile.",
+                                path.string(), folder.string()));
+    }
+    return study_from_json(whole_text(path), path.string());
+}
+
+std::string first_difference(const Study& a, const Study& b) {
+    const nlohmann::json left = to_json(a);
+    const nlohmann::json right = to_json(b);
+    for (const auto& [key, value] : left.items()) {
+        if (value != right.at(key)) return key;
+    }
+    return {};
+}
+
+Status take_over(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    if (fs::equivalent(from, to, error)) return {};
+    OutputFiles file;
+    if (const Status added = file.add(to, whole_text(from)); !added) return added;
+    return file.commit();
+}
+
+Status merge(const ProfileOptions& o) {
+    auto study = read_study(o.merge.front());
+    if (!study) return forward_error(study);
+    for (const std::string& folder : o.merge) {
+        const auto other = read_study(folder);
+        if (!other) return forward_error(other);
+        if (const std::string key = first_difference(*study, *other); !key.empty()) {
+            return fail(ErrorCode::InvalidInput,
+                        fmt::format("--merge: {} and {} are not parts of one study: \"{}\" differs "
+                                    "in their study.json.",
+                                    o.merge.front(), folder, key));
+        }
+    }
+    const auto jobs = mask_jobs(*study);
+    if (!jobs) return forward_error(jobs);
+    if (const Status ready = prepare_folder(*study, o.out); !ready) return ready;
+    std::vector<std::string> missing;
+    for (const MaskJob& job : *jobs) {
+        const auto has_it = [&](const std::string& folder) {
+            const auto [columns, rows] = shape_of(*study, job.kind);
+            return read_mask(fs::path(folder) / "masks" / job.file, columns, rows).has_value();
+        };
+        const auto found = std::ranges::find_if(o.merge, has_it);
+        if (found == o.merge.end()) {
+            missing.push_back(job.what);
+            continue;
+        }
+        const Status taken =
+            take_over(fs::path(*found) / "masks" / job.file, o.out / "masks" / job.file);
+        if (!taken) return taken;
+    }
+    if (!missing.empty()) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("--merge: {} of {} masks are in none of the folders, the first of "
+                                "them that of {}: a part is missing, or was cut off.",
+                                missing.size(), jobs->size(), missing.front()));
+    }
+    if (study->surface_points > 0) {
+        const Status taken = take_over(fs::path(o.merge.front()) / "masks" / points_name,
+                                       o.out / "masks" / points_name);
+        if (!taken) return taken;
+    }
+    return write_study(*study, o.out, {o.eye_plan, o.target_plan});
+}
+
+// The model before and the receivers, where they are asked for.
+Status add_subjects(const ProfileOptions& o, Study& study, MaskSubjects& subjects) {
+    if (!o.before.empty()) {
+        auto before = load_site(o, o.before, o.casters, "--casters", true);
+        if (!before) return forward_error(before);
+        study.before = fs::path(o.before).filename().string();
+        study.before_hash = before->hash;
+        subjects.before = std::move(before->casters);
+    }
+    if (!o.receivers) return {};
+    const auto receivers = load_site(o, o.model, o.receivers, "--receivers");
+    if (!receivers) return forward_error(receivers);
+    auto points = sun_study::sample_surfaces(receivers->casters, o.spacing_m, most_points);
+    if (!points) return forward_error(points);
+    if (points->empty()) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("--receivers: what \"{}\" matches in {} has no wall and no roof.",
+                                *o.receivers, o.model));
+    }
+    study.surface_points = static_cast<std::uint32_t>(points->size());
+    subjects.points = std::move(*points);
+    return {};
+}
+
+Status draw(const ProfileOptions& o) {
+    if (const Status given = check_given(o); !given) return given;
+    auto site = load_site(o, o.model, o.casters, "--casters");
+    if (!site) return forward_error(site);
+    auto study = study_of(o, *site);
+    if (!study) return forward_error(study);
+    MaskSubjects subjects;
+    if (const Status added = add_subjects(o, *study, subjects); !added) return added;
+    subjects.casters = std::move(site->casters);
+    const auto jobs = mask_jobs(*study);
+    if (!jobs) return forward_error(jobs);
+    if (const Status ready = prepare_folder(*study, o.out); !ready) return ready;
+    if (!o.quiet) {
+        for (const std::string& note : site->notes) fmt::print(stderr, "{}\n", one_line(note));
+        if (!o.height_m) {
+            fmt::print(stderr,
+                       "The plane is at {:g} m, {:g} m above the lowest point of what casts; "
+                       "--plane puts it elsewhere.\n",
+                       study->grid.height_m, above_lowest_m);
+        }
+    }
+    if (!subjects.points.empty()) {
+        OutputFiles file;
+        const Status added = file.add(o.out / "masks" / points_name,
+                                      number_matrix(numbers_of(subjects.points), numbers_a_point));
+        if (!added) return added;
+        if (const Status kept = file.commit(); !kept) return kept;
+    }
+    const Status drawn = draw_masks(*study, *jobs, subjects, o, o.out / "masks");
+    if (!drawn || o.shard) return drawn;
+    return write_study(*study, o.out, {o.eye_plan, o.target_plan});
+}
+
+}  // namespace
+
+Status run_profile(const ProfileOptions& options) {
+    if (const Status given = need(!options.out.empty(), "--out"); !given) return given;
+    const Status done = options.merge.empty() ? draw(options) : merge(options);
+    if (!done || options.quiet) return done;
+    const fs::path result = options.out / (options.shard ? "masks" : "report.html");
+    fmt::print(stderr, "{}\n", result.string());
+    return done;
+}
+
+}  // namespace gnomon::cli

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// Study: everything that the masks of a sun study follow from. It is kept beside them as
+// study.json, so that a run goes on where it was cut off, parts of one are known to belong
+// together, and all that is made of the masks can be made without the model.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <gnomon/core/result.hpp>
+#include <gnomon/sun_study/plan_grid.hpp>
+#include <gnomon/sun_study/steps.hpp>
+
+namespace gnomon::cli {
+
+struct Study {
+    std::string model;       ///< its file's name, without the folder
+    std::string model_hash;  ///< of all casters as they are posed
+    std::string casters;     ///< the glob; empty: all
+    std::string before;      ///< another model to compare with; empty: none
+    std::string before_hash;
+    std::string receivers;  ///< the glob of surfaces that are asked about as well; empty: none
+    double spacing_m = 0.0;
+    std::uint32_t surface_points = 0;
+    double latitude_deg = 0.0;
+    double longitude_deg = 0.0;
+    double elevation_m = 0.0;
+    sun::Air air;
+    std::vector<sun::Date> dates;
+    std::chrono::minutes from{0};
+    std::chrono::minutes to{0};
+    std::chrono::seconds step{600};
+    std::chrono::minutes offset{0};
+    double north_deg = 0.0;  ///< clockwise from the plan's y to true north
+    double min_altitude_deg = 0.0;
+    std::uint32_t skip_after_sunrise_min = 0;
+    std::uint32_t skip_before_sunset_min = 0;
+    sun_study::PlanGrid grid;
+};
+
+/// Numbers keep all their bits.
+[[nodiscard]] nlohmann::json to_json(const Study& study);
+/// Fails with ErrorCode::InvalidInput where it is not what to_json() makes; `place` names the file.
+[[nodiscard]] Result<Study> study_from_json(const std::string& text, const std::string& place);
+
+/// The steps of one of its dates.
+[[nodiscard]] Result<std::vector<sun_study::Step>> steps_of(const Study& study,
+                                                            const sun::Date& date);
+
+/// Towards the sun, in the plan's coordinates.
+[[nodiscard]] glm::dvec3 towards_sun(const Study& study, const sun_study::Step& step);
+
+}  // namespace gnomon::cli

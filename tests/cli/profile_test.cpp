@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MIT
+//
+// gnomon profile as a user runs it.
+#include "tests/cli/program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <sstream>
+
+namespace gnomon::cli::test {
+namespace {
+
+constexpr const char* tower = R"({"primitives": [
+    {"shape": "box", "name": "tower", "size": [4, 10, 4], "translation": [0, 5, 0]},
+    {"shape": "box", "name": "shed", "size": [2, 2, 2], "translation": [8, 1, 6]}]})";
+
+Arguments profile(const std::string& out, const Arguments& more = {}) {
+    return joined({"profile", "site.scene.json",
+                   "--lat",   "48.306",
+                   "--lon",   "14.286",
+                   "--tz",    "+01:00",
+                   "--date",  "2026-03-21",
+                   "--from",  "09:00",
+                   "--to",    "15:00",
+                   "--step",  "1h",
+                   "--grid",  "0.5m",
+                   "--plane", "0.1",
+                   "--area",  "-20,-16,20,24",
+                   "--out",   out,
+                   "--quiet"},
+                  more);
+}
+
+class Profile : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        if (!draws("gl") && !draws("vk")) GTEST_SKIP() << "nothing draws here";
+        write("site.scene.json", tower);
+    }
+    [[nodiscard]] nlohmann::json summary(const std::string& folder) const {
+        return nlohmann::json::parse(read(folder + "/summary.json"));
+    }
+    /// Unpacked as NumPy would: rows of ones and zeros.
+    [[nodiscard]] std::vector<std::string> mask(const std::string& file, std::size_t columns,
+                                                std::size_t rows) const {
+        const std::string bytes = read(file);
+        EXPECT_EQ(bytes.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
+        const std::size_t begin = 10 + static_cast<unsigned char>(bytes[8]) +
+                                  256 * std::size_t{static_cast<unsigned char>(bytes[9])};
+        EXPECT_EQ(begin % 64, 0U);
+        const std::size_t stride = (columns + 7) / 8;
+        EXPECT_EQ(bytes.size(), begin + stride * rows);
+        std::vector<std::string> lines(rows);
+        for (std::size_t row = 0; row < rows; ++row) {
+            for (std::size_t column = 0; column < columns; ++column) {
+                const auto byte =
+                    static_cast<unsigned char>(bytes[begin + row * stride + column / 8]);
+                lines[row] += (byte >> (7 - column % 8) & 1) != 0 ? '1' : '0';
+            }
+        }
+        return lines;
+    }
+    void expect_same_files(const std::string& a, const std::string& b) const {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(path(a))) {
+            if (!entry.is_regular_file()) continue;
+            const std::string name = entry.path().lexically_relative(path(a)).string();
+            EXPECT_EQ(read(a + "/" + name), read(b + "/" + name)) << name;
+        }
+    }
+};
+
+TEST_F(Profile, WritesWhatItPromises) {
+    run_well(profile("study"));
+    for (const char* name :
+         {"profile.png", "profile.pgw", "hours.png", "hours.pgw", "hours.csv", "summary.json",
+          "sun-path.png", "report.html", "study.json", "masks/open.npy",
+          "masks/2026-03-21T0900.npy", "masks/2026-03-21T1500.npy"}) {
+        EXPECT_TRUE(std::filesystem::is_regular_file(path(std::string("study/") + name))) << name;
+    }
+    const nlohmann::json s = summary("study");
+    EXPECT_EQ(s["cells"], 80 * 80);
+    // Two boxes lie above 8 x 8 and 4 x 4 cells.
+    EXPECT_EQ(s["open_cells"], 80 * 80 - 64 - 16);
+    EXPECT_EQ(s["hours"]["possible"], 6.0);
+    EXPECT_EQ(s["hours"]["min"], 0.0);
+    EXPECT_EQ(s["hours"]["max"], 6.0);
+    ASSERT_EQ(s["steps"].size(), 7U);
+    EXPECT_EQ(s["steps"][3]["utc"], "2026-03-21T11:00:00Z");
+    EXPECT_EQ(s["steps"][3]["clock"], "12:00");
+    EXPECT_NEAR(s["steps"][3]["altitude_deg"], 42.0, 0.5);
+    EXPECT_EQ(s["criteria"][0]["id"], "bre209");
+    EXPECT_FALSE(s["criteria"][0]["applies"]);  // the sun is up before 09:00
+    double last = 1.0;
+    for (const auto& at_least : s["share_at_least"]) {
+        EXPECT_LE(at_least["share"], last);
+        last = at_least["share"];
+    }
+    EXPECT_NE(read("study/report.html").find("hours.png"), std::string::npos);
+}
+
+// The shadow of the tower's top, by hand: 9.9 m above the plane.
+TEST_F(Profile, PutsShadowsWhereTheSunSays) {
+    run_well(profile("study"));
+    const nlohmann::json s = summary("study");
+    for (const auto& step : s["steps"]) {
+        const auto lines = mask("study/" + step["mask"].get<std::string>(), 80, 80);
+        const double azimuth = step["azimuth_deg"].get<double>() * std::numbers::pi / 180.0;
+        const double altitude = step["altitude_deg"].get<double>() * std::numbers::pi / 180.0;
+        const auto at = [&](double distance) {
+            const double x = -std::sin(azimuth) * distance;
+            const double y = -std::cos(azimuth) * distance;
+            return lines[static_cast<std::size_t>(std::floor((24.0 - y) / 0.5))]
+                        [static_cast<std::size_t>(std::floor((x + 20.0) / 0.5))];
+        };
+        const double length = 9.9 / std::tan(altitude);
+        EXPECT_EQ(at(length), '0') << step;
+        EXPECT_EQ(at(length + 4.0), '1') << step;
+        EXPECT_EQ(at(-4.0), '1') << step;
+    }
+}
+
+TEST_F(Profile, PlacesItsPicturesByWorldFiles) {
+    run_well(profile("study"));
+    std::istringstream file(read("study/hours.pgw"));
+    double a = 0, d = 0, b = 0, e = 0, c = 0, f = 0;
+    file >> a >> d >> b >> e >> c >> f;
+    ASSERT_TRUE(file);
+    EXPECT_NEAR(a, 0.5 / 15.0, 1e-12);  // 1200 pixels for 80 cells
+    EXPECT_EQ(d, 0.0);
+    EXPECT_EQ(b, 0.0);
+    EXPECT_EQ(e, -a);
+    // The upper left cell's upper left corner is 28 pixels from the left and 84 from above.
+    EXPECT_NEAR(c + (28.0 - 0.5) * a, -20.0, 1e-9);
+    EXPECT_NEAR(f + (84.0 - 0.5) * e, 24.0, 1e-9);
+}
+
+TEST_F(Profile, HasHoursThatAddUpItsMasks) {
+    run_well(profile("study"));
+    const nlohmann::json s = summary("study");
+    std::vector<std::vector<std::string>> masks;
+    for (const auto& step : s["steps"]) {
+        masks.push_back(mask("study/" + step["mask"].get<std::string>(), 80, 80));
+    }
+    const auto open = mask("study/masks/open.npy", 80, 80);
+    std::istringstream csv(read("study/hours.csv"));
+    std::string line;
+    for (std::size_t row = 0; row < 80; ++row) {
+        ASSERT_TRUE(std::getline(csv, line));
+        std::istringstream cells(line + ",");
+        for (std::size_t column = 0; column < 80; ++column) {
+            std::string cell;
+            ASSERT_TRUE(std::getline(cells, cell, ','));
+            if (open[row][column] == '0') {
+                EXPECT_EQ(cell, "");
+                continue;
+            }
+            double hours = 0.0;
+            for (std::size_t i = 0; i < masks.size(); ++i) {
+                if (masks[i][row][column] == '1') hours += s["steps"][i]["hours"].get<double>();
+            }
+            ASSERT_EQ(std::stod(cell), hours) << row << ", " << column;
+        }
+    }
+}
+
+TEST_F(Profile, TurnsWithNorthAndTheModelsAxes) {
+    // At nine the sun is in the south-east: above on the right, where north lies to the left.
+    run_well(profile("turned", {"--north", "-90"}));
+    const auto lines = mask("turned/masks/2026-03-21T0900.npy", 80, 80);
+    EXPECT_EQ(lines[58][34], '0');  // (-3, -5): in the tower's shadow
+    EXPECT_EQ(lines[38][46], '1');
+    // The same tower in a model that is +Z up and in centimetres.
+    write("site.scene.json", R"({"primitives": [
+        {"shape": "box", "name": "tower", "size": [400, 400, 1000], "translation": [0, 0, 500]}]})");
+    run_well(profile("up", {"--up", "z", "--unit", "cm"}));
+    write("site.scene.json", R"({"primitives": [
+        {"shape": "box", "name": "tower", "size": [4, 10, 4], "translation": [0, 5, 0]}]})");
+    run_well(profile("plain"));
+    EXPECT_EQ(read("up/hours.csv"), read("plain/hours.csv"));
+}
+
+TEST_F(Profile, LetsOnlyThoseCastThatAreNamed) {
+    run_well(profile("all"));
+    run_well(profile("one", {"--casters", "tow*"}));
+    run_well(profile("part", {"--casters", "tower#0"}));
+    EXPECT_EQ(summary("one")["open_cells"], 80 * 80 - 64);
+    EXPECT_LT(summary("all")["hours"]["mean"], summary("one")["hours"]["mean"]);
+    EXPECT_EQ(read("part/hours.csv"), read("one/hours.csv"));
+    expect_refused(profile("none", {"--casters", "castle"}), {"--casters", "castle"});
+}
+
+TEST_F(Profile, ComparesWithAModelBefore) {
+    write("before.scene.json", R"({"primitives": [
+        {"shape": "box", "name": "shed", "size": [2, 2, 2], "translation": [8, 1, 6]}]})");
+    run_well(profile("alone"));
+    run_well(profile("change", {"--before", "before.scene.json"}));
+    EXPECT_EQ(read("change/hours.csv"), read("alone/hours.csv"));
+    const nlohmann::json s = summary("change");
+    EXPECT_EQ(s["before"]["open_cells"], 80 * 80 - 16);
+    EXPECT_GT(s["before"]["hours"]["mean"], s["hours"]["mean"]);
+    EXPECT_TRUE(std::filesystem::exists(path("change/difference.png")));
+    EXPECT_TRUE(std::filesystem::exists(path("change/difference.pgw")));
+    // A tower takes and gives nothing; where it stands there is no answer.
+    std::istringstream csv(read("change/difference.csv"));
+    std::string cell;
+    std::size_t lost = 0;
+    while (std::getline(csv, cell, ',')) {
+        if (cell.empty() || cell == "\n") continue;
+        EXPECT_LE(std::atof(cell.c_str()), 0.0);
+        lost += std::atof(cell.c_str()) < 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(lost, 300U);
+}
+
+TEST_F(Profile, AsksAboutSurfacesToo) {
+    run_well(profile("study", {"--receivers", "shed", "--spacing", "0.25m"}));
+    const nlohmann::json s = summary("study")["surfaces"];
+    EXPECT_NEAR(s["area_m2"].get<double>(), 5.0 * 4.0, 1e-9);
+    EXPECT_TRUE(std::filesystem::exists(path("study/surfaces.png")));
+    std::istringstream csv(read("study/surfaces.csv"));
+    std::string line;
+    std::getline(csv, line);
+    EXPECT_EQ(line, "x_m,y_m,height_m,nx,ny,nz,area_m2,hours");
+    std::size_t points = 0;
+    double roof_h = 0.0;
+    double north_h = 0.0;
+    while (std::getline(csv, line)) {
+        double v[8] = {};
+        ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &v[0], &v[1], &v[2],
+                              &v[3], &v[4], &v[5], &v[6], &v[7]),
+                  8);
+        if (v[5] > 0.9) roof_h = std::max(roof_h, v[7]);
+        if (v[4] > 0.9) north_h = std::max(north_h, v[7]);
+        ++points;
+    }
+    EXPECT_EQ(points, s["points"]);
+    EXPECT_EQ(roof_h, 6.0);
+    EXPECT_EQ(north_h, 0.0);
+    // In parts as well, and joined without the model.
+    run_well(profile("part1", {"--receivers", "shed", "--spacing", "0.25m", "--shard", "1/2"}));
+    run_well(profile("part2", {"--receivers", "shed", "--spacing", "0.25m", "--shard", "2/2"}));
+    run_well({"profile", "--quiet", "--out", "merged", "--merge", "part1", "part2"});
+    expect_same_files("study", "merged");
+    expect_refused(profile("x", {"--receivers", "castle"}), {"--receivers", "castle"});
+    expect_refused(profile("x", {"--receivers", "shed", "--spacing", "0.001"}), {"points"});
+}
+
+TEST_F(Profile, GoesOnWhereItWas) {
+    run_well(profile("study"));
+    const std::string whole = read("study/hours.csv");
+    // A mask that is there is taken over, whatever is in it; one that was cut off is drawn again.
+    const std::string noon = read("study/masks/2026-03-21T1200.npy");
+    write("study/masks/2026-03-21T1100.npy", noon);
+    write("study/masks/2026-03-21T1300.npy", noon.substr(0, noon.size() / 2));
+    std::filesystem::remove(path("study/masks/2026-03-21T1400.npy"));
+    const std::string one = read("study/masks/2026-03-21T1000.npy");
+    run_well(profile("study"));
+    EXPECT_EQ(read("study/masks/2026-03-21T1100.npy"), noon);
+    EXPECT_NE(read("study/masks/2026-03-21T1300.npy"), noon);
+    EXPECT_NE(read("study/hours.csv"), whole);
+    // Another study takes over nothing.
+    run_well(profile("study", {"--casters", "shed"}));
+    EXPECT_NE(read("study/masks/2026-03-21T1000.npy"), one);
+    run_well(profile("study"));
+    EXPECT_EQ(read("study/hours.csv"), whole);
+}
+
+TEST_F(Profile, IsTheSameInAnyParts) {
+    Arguments whole = profile("whole");
+    std::replace(whole.begin(), whole.end(), std::string("1h"), std::string("2h"));
+    std::replace(whole.begin(), whole.end(), std::string("2026-03-21"),
+                 std::string("2026-03-21,2026-06-21"));
+    run_well(whole);
+    Arguments merge{"profile", "--quiet", "--out", "merged", "--merge"};
+    for (const std::string part : {"3", "1", "2"}) {
+        Arguments shard = whole;
+        std::replace(shard.begin(), shard.end(), std::string("whole"), "part" + part);
+        run_well(joined(shard, {"--shard", part + "/3"}));
+        EXPECT_FALSE(std::filesystem::exists(path("part" + part + "/report.html")));
+        if (part != "2") merge.push_back("part" + part);
+    }
+    expect_refused(merge, {"--merge", "masks are in none of the folders"});
+    merge.push_back("part2");
+    run_well(merge);
+    EXPECT_TRUE(std::filesystem::exists(path("merged/2026-06-21/hours.png")));
+    expect_same_files("whole", "merged");
+    run_well(profile("other"));
+    expect_refused({"profile", "--merge", "part1", "other", "--out", "x"}, {"\"dates\" differs"});
+}
+
+TEST_F(Profile, RunsUnderGnuParallel) {
+    if (std::system("parallel --version > /dev/null 2>&1") != 0) {
+        GTEST_SKIP() << "GNU parallel is not installed";
+    }
+    run_well(profile("whole"));
+    std::string command =
+        "cd '" + path("").string() + "' && parallel --will-cite -j2 " + std::string(GNOMON_PROGRAM);
+    for (const std::string& word : profile("part{}", {"--shard", "{}/4"})) command += " " + word;
+    command += " ::: 1 2 3 4 2> parallel.log";
+    ASSERT_EQ(std::system(command.c_str()), 0) << read("parallel.log");
+    run_well(
+        {"profile", "--quiet", "--out", "merged", "--merge", "part1", "part2", "part3", "part4"});
+    expect_same_files("whole", "merged");
+}
+
+TEST_F(Profile, SaysWhatIsWrongInOneSentence) {
+    const auto with = [](const std::string& option, const std::string& value) {
+        Arguments arguments = profile("x");
+        const auto at = std::find(arguments.begin(), arguments.end(), option);
+        if (at == arguments.end()) return joined(arguments, {option, value});
+        *(at + 1) = value;
+        return arguments;
+    };
+    expect_refused(with("--date", "2026-02-30"), {"2026-02-30", "does not exist"});
+    expect_refused(with("--date", "2026-03-21,2026-03-21"), {"twice"});
+    expect_refused(with("--from", "16:00"), {"16:00 to 15:00", "empty"});
+    expect_refused(with("--to", "25:00"), {"25:00"});
+    expect_refused(with("--tz", "CET"), {"CET"});
+    expect_refused(with("--lat", "91"), {"--lat", "91"});
+    expect_refused(with("--step", "0m"), {"0m"});
+    expect_refused(with("--step", "7h"), {"does not fit"});
+    expect_refused(with("--grid", "-1"), {"--grid"});
+    expect_refused(with("--area", "0,0,10"), {"--area", "four numbers"});
+    expect_refused(with("--area", "0,0,-10,5"), {"--area", "empty"});
+    expect_refused(with("--shard", "4/3"), {"--shard", "4/3"});
+    expect_refused(with("--backend", "null"), {"--backend", "nothing would cast"});
+    expect_refused(with("--area", "-1,-1,1,1"), {"--plane", "above every cell"});
+    expect_refused(with("--grid", "0.0001"), {"--grid"});
+    expect_refused(with("--min-altitude", "80"), {"no sun counts"});
+    Arguments night = with("--lat", "80");
+    std::replace(night.begin(), night.end(), std::string("2026-03-21"), std::string("2026-12-21"));
+    expect_refused(night, {"2026-12-21", "below the horizon"});
+    expect_refused({"profile", "site.scene.json", "--out", "x"}, {"--lat"});
+    expect_refused({"profile", "--out", "x"}, {"MODEL"});
+    expect_refused({"profile", "site.scene.json"}, {"--out"});
+    expect_refused({"profile", "--merge", "nowhere", "--out", "x"}, {"nowhere"});
+    expect_refused({"profile", "missing.glb", "--lat", "1", "--lon", "1", "--date", "2026-03-21",
+                    "--from", "09:00", "--to", "15:00", "--out", "x"},
+                   {"missing.glb"});
+}
+
+}  // namespace
+}  // namespace gnomon::cli::test
