@@ -330,6 +330,7 @@ TEST_F(Profile, SaysWhatIsWrongInOneSentence) {
     expect_refused(with("--backend", "null"), {"--backend", "nothing would cast"});
     expect_refused(with("--area", "-1,-1,1,1"), {"--plane", "above every cell"});
     expect_refused(with("--grid", "0.0001"), {"--grid"});
+    expect_refused(with("--eye", "1,2,3"), {"--eye", "--receivers"});
     expect_refused(with("--min-altitude", "80"), {"no sun counts"});
     Arguments night = with("--lat", "80");
     std::replace(night.begin(), night.end(), std::string("2026-03-21"), std::string("2026-12-21"));

@@ -40,6 +40,11 @@ Status check_given(const ProfileOptions& o) {
           need(o.from.has_value(), "--from"), need(o.to.has_value(), "--to")}) {
         if (!status) return status;
     }
+    if ((o.eye_plan || o.target_plan) && !o.receivers) {
+        return fail(ErrorCode::InvalidInput,
+                    "--eye and --target are for the picture of --receivers, of which none is "
+                    "named.");
+    }
     return {};
 }
 
