@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test soak bench peers savings report docs install format tidy clean FORCE
+.PHONY: help setup build play demo test soak bench peers savings report docs install format tidy clean FORCE
 
 help: ## this list
 	@echo "gnomon: exact hard shadows. Targets:"
@@ -28,6 +28,9 @@ build/%/build.ninja: CMakePresets.json build/.setup
 
 build: build/build.ninja ## libraries, programs and examples; programs lie in build/bin
 	@cmake --build build --target modules/all backends/all apps/all examples/all
+
+play: build ## play the game in a window
+	@build/bin/gnomon-game $(PLAY_OPTIONS)
 
 demo: build ## draw the demonstration pictures
 	@scripts/demo

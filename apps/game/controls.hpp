@@ -15,6 +15,7 @@ struct Pad {
     bool run = false;
     bool restart = false;
     bool pause = false;
+    bool operator==(const Pad&) const = default;
 };
 
 /// A stick within this of its middle is at rest.

@@ -36,21 +36,50 @@ shadows::View follow(const Level& level, const Player& player, double aspect, co
             .clip_from_view = shadows::infinite_perspective(rig.fovy_rad, aspect, 0.1)};
 }
 
-Drawing::Drawing(gpu::Device& device, shadows::ShadowSystem system, render::Renderer renderer)
-    : device_(&device), system_(std::move(system)), renderer_(std::move(renderer)) {}
+namespace {
+
+render::RendererDesc renderer_desc(const DrawingOptions& options) {
+    return {.width = options.width,
+            .height = options.height,
+            .sample_count = options.samples,
+            .overlays = options.overlays};
+}
+
+Result<shadows::ShadowSystem> make_shadow_system(const DrawingOptions& options) {
+    return shadows::ShadowSystem::create(
+        {.force_technique = options.technique, .receivers = shadows::Receivers::Submitted});
+}
+
+}  // namespace
+
+Drawing::Drawing(gpu::Device& device, const DrawingOptions& options, shadows::ShadowSystem system,
+                 render::Renderer renderer)
+    : device_(&device),
+      options_(options),
+      system_(std::move(system)),
+      renderer_(std::move(renderer)) {}
 
 Result<Drawing> Drawing::create(gpu::Device& device, Stage& stage, const DrawingOptions& options) {
-    auto system = shadows::ShadowSystem::create({.receivers = shadows::Receivers::Submitted});
+    auto system = make_shadow_system(options);
     if (!system) return forward_error(system);
-    auto renderer = render::Renderer::create(
-        device,
-        {.width = options.width, .height = options.height, .sample_count = options.samples});
+    auto renderer = render::Renderer::create(device, renderer_desc(options));
     if (!renderer) return forward_error(renderer);
     stage.dress();
     if (const Status uploaded = renderer->upload(stage.scene()); !uploaded) {
         return forward_error(uploaded);
     }
-    return Drawing(device, std::move(*system), std::move(*renderer));
+    return Drawing(device, options, std::move(*system), std::move(*renderer));
+}
+
+Status Drawing::configure(const DrawingOptions& options) {
+    if (options == options_) return {};
+    if (options.technique != options_.technique) {
+        auto system = make_shadow_system(options);
+        if (!system) return forward_error(system);
+        system_ = std::move(*system);
+    }
+    options_ = options;
+    return renderer_.reconfigure(renderer_desc(options));
 }
 
 Status Drawing::draw(Stage& stage, const Level& level, const shadows::View& view,

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <gnomon/core/result.hpp>
@@ -37,6 +38,9 @@ struct DrawingOptions {
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
     std::uint32_t samples = 4;  ///< 1 or 4
+    render::Overlays overlays = {};
+    std::optional<shadows::Technique> technique = std::nullopt;  ///< none: whichever is cheaper
+    bool operator==(const DrawingOptions&) const = default;
 };
 
 class Drawing {
@@ -44,6 +48,10 @@ public:
     /// The device must outlive it. Fails as Renderer::create() and Renderer::upload().
     [[nodiscard]] static Result<Drawing> create(gpu::Device& device, Stage& stage,
                                                 const DrawingOptions& options);
+
+    /// Goes on with other options, as if created with them; cheap where they are the same. Fails as
+    /// create(); after that, draw with a new one.
+    [[nodiscard]] Status configure(const DrawingOptions& options);
 
     /// One frame, submitted. `after_light` as FrameInput has it.
     [[nodiscard]] Status draw(Stage& stage, const Level& level, const shadows::View& view,
@@ -56,9 +64,11 @@ public:
     [[nodiscard]] const shadows::FrameStats& shadow_stats() const { return stats_; }
 
 private:
-    Drawing(gpu::Device& device, shadows::ShadowSystem system, render::Renderer renderer);
+    Drawing(gpu::Device& device, const DrawingOptions& options, shadows::ShadowSystem system,
+            render::Renderer renderer);
 
     gpu::Device* device_;
+    DrawingOptions options_;
     shadows::ShadowSystem system_;
     render::Renderer renderer_;
     shadows::FrameStats stats_;

@@ -234,6 +234,15 @@ Status Window::reopen(Backend backend) {
     return opened;
 }
 
+void Window::set_vsync(bool vsync) {
+    state_->desc.vsync = vsync;
+    // It goes by the context that is current, which is this window's where it is OpenGL's and no
+    // other is used in between.
+    if (state_->window != nullptr && glfwGetCurrentContext() == state_->window) {
+        glfwSwapInterval(vsync ? 1 : 0);
+    }
+}
+
 void Window::set_title(const std::string& title) {
     state_->desc.title = title;
     if (state_->window != nullptr) glfwSetWindowTitle(state_->window, title.c_str());

@@ -85,6 +85,8 @@ public:
     /// False only after a reopen() that found neither backend.
     [[nodiscard]] bool has_device() const;
 
+    /// As WindowDesc::vsync; kept by reopen().
+    void set_vsync(bool vsync);
     void set_title(const std::string& title);
     /// As far as the desktop agrees, and when it likes; nothing while it fills the screen.
     void set_size(const glm::uvec2& size_px);

@@ -124,6 +124,9 @@ TEST(CommandLine, refuses_in_one_sentence) {
          2,
          "gnomon-game: --size is about pictures, which are kept by --capture DIR alone; give "
          "both.\n"},
+        {{"--headless", "--autopilot", "--frames", "3"},
+         2,
+         "gnomon-game: --frames is about the window, which --headless goes without.\n"},
         {{"--list-levels", "--assets", "no/such"},
          2,
          "gnomon-game: no/such/levels: the folder cannot be read.\n"},

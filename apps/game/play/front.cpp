@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+//
+// Frames: from input to picture.
+#include "play/front.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "play/hud.hpp"
+
+namespace gnomon::game {
+
+namespace {
+
+using FrameClock = std::chrono::steady_clock;
+
+/// A device that is lost as often without a frame between will be lost again.
+constexpr int most_device_losses = 3;
+/// As early may a frame be that waits for the next tick.
+constexpr double ready_s = 0.0015;
+/// How long the end of a recording stands, at its speed.
+constexpr double end_stands_s = 2.0;
+constexpr double backdrop_after_s = 0.35;
+
+double ms_between(FrameClock::time_point from, FrameClock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+}  // namespace
+
+Front::Front(const PlayOptions& options, std::vector<NamedLevel> levels, LoadedSettings settings,
+             window::Window window, std::optional<input::Script> script)
+    : options_(options),
+      levels_(std::move(levels)),
+      settings_(std::move(settings.settings)),
+      saved_(settings_),
+      file_is_broken_(!settings.complaint.empty()),
+      screens_(levels_.size(), options.watched.has_value()),
+      window_(std::move(window)),
+      script_(std::move(script)),
+      stepper_(options.watched ? options.speed : 1.0) {
+    for (const NamedLevel& level : levels_) {
+        const bool won = std::ranges::find(settings_.won, level.name) != settings_.won.end();
+        lines_.push_back({level.level.name, won});
+    }
+    say(std::move(settings.complaint));
+}
+
+Status Front::start() {
+    size_px_ = window_.size_px();
+    if (settings_.fullscreen && !script_ && !options_.size_px) window_.set_fullscreen(true);
+    const std::string& wanted = watches() ? options_.watched->level : options_.level;
+    Status begun;
+    if (wanted.empty()) {
+        begun = show_backdrop();
+    } else {
+        const auto level = std::ranges::find(levels_, wanted, &NamedLevel::name);
+        const auto place = static_cast<std::size_t>(level - levels_.begin());
+        screens_.begin(place);
+        begun = begin_level(place);
+    }
+    if (!begun) return begun;
+    if (watches()) session_->follow(options_.watched->inputs);
+    return attach();
+}
+
+bool Front::is_over() const {
+    if (over_ || (options_.frames && frames_ >= *options_.frames)) return true;
+    if (!script_) return window_.input().close_requested;
+    if (scripted_.close_requested) return true;
+    // What is watched is watched to its end.
+    return !watches() && !options_.frames && frames_ > script_->last_frame() + 2;
+}
+
+bool Front::turns_by_mouse(const input::Input& input) const {
+    return captured_ || input.is_down(input::MouseButton::Right);
+}
+
+MenuPress Front::press_of(const input::Input& input) const {
+    MenuPress press = menu_press(input, buttons_);
+    if (screens_.now() == Screen::Playing || ui_->wants_mouse()) return press;
+    const float unit = unit_of(size_px_);
+    const glm::vec2 point = glm::vec2(input.cursor_px()) / unit;
+    const auto boxes = item_boxes(screens_, glm::vec2(size_px_) / unit);
+    const auto under = item_at(boxes, point);
+    if (!under) return press;
+    if (input.cursor_motion_px() != glm::dvec2(0.0)) press.pointed = under;
+    const bool is_setting = screens_.items()[*under].kind == MenuItem::Kind::Setting;
+    if (is_setting && input.scroll.y != 0.0) {
+        press.pointed = under;
+        press.right = input.scroll.y > 0.0 ? 1 : -1;
+    }
+    if (!input.was_pressed(input::MouseButton::Left)) return press;
+    press.pointed = under;
+    // Of a setting, the two ends of its value step it up and down.
+    const float from_right = boxes[*under].max.x - point.x;
+    if (is_setting && from_right < 200.0F) {
+        press.right = from_right < 70.0F ? 1 : -1;
+    } else {
+        press.accept = true;
+    }
+    return press;
+}
+
+Status Front::handle_keys(const input::Input& input) {
+    using input::Key;
+    const auto pressed = [&](Key key) { return input.was_pressed(key); };
+    if (pressed(Key::F1) || buttons_.was_pressed(PadButton::Y)) panel_.shown = !panel_.shown;
+    if (panel_.shown || screens_.now() == Screen::Playing) {
+        const auto switches = overlay_switches(panel_.drawing.overlays);
+        for (std::size_t i = 0; i < switches.size(); ++i) {
+            const auto key = static_cast<Key>(static_cast<std::size_t>(Key::Digit1) + i);
+            if (pressed(key)) *switches[i] = !*switches[i];
+        }
+    }
+    if (pressed(Key::F11)) {
+        settings_.fullscreen = !window_.is_fullscreen();
+        window_.set_fullscreen(settings_.fullscreen);
+        skipped_motions_ = 3;
+    }
+    if (pressed(Key::F12)) {
+        for (int i = 1;; ++i) {
+            const std::filesystem::path path = fmt::format("gnomon-game-{}.png", i);
+            std::error_code error;
+            if (std::filesystem::exists(path, error) && !error) continue;
+            const Status kept = save_picture(path);
+            say(kept ? fmt::format("Kept {}", path.string()) : kept.error().message);
+            break;
+        }
+    }
+    if (pressed(Key::F2) || std::exchange(panel_.wants_other_backend, false)) {
+        return switch_backend();
+    }
+    return {};
+}
+
+// While somebody plays the mouse turns the camera and nothing else.
+void Front::update_cursor() {
+    const bool wanted =
+        screens_.now() == Screen::Playing && !watches() && !script_ && !panel_.shown;
+    if (wanted == captured_) return;
+    captured_ = wanted;
+    window_.capture_cursor(wanted);
+    skipped_motions_ = 2;
+}
+
+Status Front::tick(const input::Input& input) {
+    Session& session = *session_;
+    const Level& level = session.world().level();
+    if (is_backdrop()) {
+        const bool done = session.is_over() || session.world().outcome() != Outcome::Playing;
+        return done ? session.restart() : session.tick({});
+    }
+    const Status ticked =
+        session.tick(input_of(pad_of(input), level.camera.yaw_rad + look_.yaw_rad));
+    if (!ticked) return ticked;
+    const World& world = session.world();
+    const bool is_last = watches() ? session.is_over() : world.outcome() != Outcome::Playing;
+    picture_due_ = session.played().inputs.size() % options_.every == 0 || is_last;
+    if (!is_last) return {};
+    if (watches()) {
+        ended_ = Ended{.outcome = world.outcome(), .ticks = world.now(), .hash = world.hash()};
+        hold_s_ = end_stands_s / options_.speed;
+    } else {
+        if (world.outcome() == Outcome::Won) remember_win();
+        screens_.ended(world.outcome());
+    }
+    return {};
+}
+
+Status Front::simulate(const input::Input& input, double dt_s) {
+    const bool plays = screens_.now() == Screen::Playing;
+    rules_ms_ = 0.0;
+    if (!plays && !is_backdrop()) return {};
+    if (plays) {
+        level_s_ += dt_s;
+        LookOptions options{.by_mouse = turns_by_mouse(input) && skipped_motions_ == 0,
+                            .mouse_speed = settings_.mouse_speed,
+                            .inverted = settings_.mouse_inverted};
+        look_ = turned(look_, session_->world().level().camera, input, options, dt_s);
+        if (ended_) {
+            hold_s_ -= dt_s;
+            over_ = hold_s_ <= 0.0;
+            return {};
+        }
+    }
+    const auto begin = FrameClock::now();
+    const bool captures = !options_.capture.empty() && plays;
+    if (captures && picture_due_) return {};  // of how it begins
+    if (plays && !watches() && !is_under_way_) {
+        // Whoever reads what the level has to say is not caught meanwhile.
+        is_under_way_ = pad_of(input) != Pad{};
+        if (!is_under_way_) return {};
+    }
+    const Screen before = screens_.now();
+    for (std::uint32_t due = stepper_.advance(dt_s); due > 0; --due) {
+        if (const Status ticked = tick(input); !ticked) return ticked;
+        if (ended_ || screens_.now() != before) break;
+        if (captures && picture_due_) break;
+    }
+    rules_ms_ = ms_between(begin, FrameClock::now());
+    return {};
+}
+
+Status Front::draw(const input::Input& input, double dt_s) {
+    const auto begin = FrameClock::now();
+    const glm::uvec2 size = picture_size();
+    panel_.drawing.width = size.x;
+    panel_.drawing.height = size.y;
+    panel_.drawing.samples = options_.samples.value_or(settings_.samples);
+    if (!drawing_) {
+        if (const Status made = make_drawing(); !made) return made;
+    }
+    if (const Status done = drawing_->configure(panel_.drawing); !done) return done;
+    if (const Status fresh = refresh_ui(); !fresh) return fresh;
+
+    World& world = session_->world();
+    Look look = look_;
+    if (is_backdrop()) look = {.yaw_rad = 0.35 * std::sin(time_s_ * 0.11), .nearer = 1.15};
+    const double aspect = static_cast<double>(size.x) / size.y;
+    const shadows::View view = follow(world.level(), world.player(), aspect, look);
+
+    // The panel lives in the picture, whose pixels may be larger than the window's.
+    input::Input in_picture = input;
+    in_picture.move_cursor(input.cursor_px() * glm::dvec2(size) / glm::dvec2(size_px_));
+    ui_->begin_frame(in_picture, size, dt_s);
+    const Canvas canvas(letters_, size);
+    if (screens_.now() == Screen::Playing) {
+        draw_hud(canvas, *session_, view,
+                 {.shown_s = level_s_, .watches = watches(), .waits = waits()});
+    }
+    draw_page(canvas, screens_,
+              {.levels = lines_,
+               .settings = settings_,
+               .backend = panel_.backend,
+               .adapter = panel_.adapter,
+               .shown_s = screen_s_,
+               .time_s = time_s_,
+               .session = &*session_});
+    draw_note(canvas, note_, static_cast<float>(std::min(1.0, note_s_ * 2.0)));
+    show_panel(panel_, canvas.unit());
+
+    if (const Status drawn = drawing_->draw(world.stage(), world.level(), view); !drawn) {
+        return drawn;
+    }
+    const gpu::TextureId picture = drawing_->renderer().picture();
+    if (const Status drawn = ui_pass_->draw(ui_->end_frame(), picture, size.x, size.y); !drawn) {
+        return drawn;
+    }
+    has_drawn_ = true;
+    if (std::exchange(picture_due_, false) && !options_.capture.empty() && !is_backdrop()) {
+        const auto name = fmt::format("tick_{:06}.png", session_->played().inputs.size());
+        if (const Status kept = save_picture(options_.capture / name); !kept) return kept;
+        ++pictures_;
+        if (ended_) ended_->pictures = pictures_;
+    }
+    const auto drawn = FrameClock::now();
+    const Status shown = window_.present(picture);
+    panel_.shadows = drawing_->shadow_stats();
+    const double shadows_ms = panel_.shadows.detect_ms + panel_.shadows.build_ms;
+    const auto number = [](double ms) { return static_cast<float>(std::max(ms, 0.0)); };
+    panel_.add_times(
+        {number(rules_ms_), number(shadows_ms), number(ms_between(begin, drawn) - shadows_ms),
+         number(ms_between(drawn, FrameClock::now()))},
+        number(dt_s * 1e3));
+    return shown;
+}
+
+Status Front::frame(const input::Input& input, double dt_s) {
+    for (const std::string& command : input.commands) {
+        if (const Status done = obey(command); !done) return done;
+    }
+    const glm::uvec2 size_px = window_.size_px();
+    if (size_px.x == 0 || size_px.y == 0) return {};
+    size_px_ = size_px;
+    if (const Status fresh = refresh_ui(); !fresh) return fresh;
+    buttons_.see(input);
+    time_s_ += dt_s;
+    screen_s_ += dt_s;
+    note_s_ = std::max(0.0, note_s_ - dt_s);
+
+    if (const Status handled = handle_keys(input); !handled) return handled;
+    const Screen before = screens_.now();
+    const std::size_t level_before = screens_.level();
+    const Order order = screens_.press(press_of(input));
+    if (const Status done = obey(order); !done) return done;
+    if (over_) return {};
+    rested_s_ = screens_.level() == level_before ? rested_s_ + dt_s : 0.0;
+    // Behind the title is the level that is chosen there, once the choice rests.
+    if (is_backdrop() && backdrop_ != screens_.level() && rested_s_ > backdrop_after_s) {
+        if (const Status shown = show_backdrop(); !shown) return shown;
+    }
+    if (const Status done = simulate(input, dt_s); !done) return done;
+    if (screens_.now() != before) screen_s_ = 0.0;
+    update_cursor();
+    skipped_motions_ = std::max(0, skipped_motions_ - 1);
+    return draw(input, dt_s);
+}
+
+// Menus and ends have no ticks, but as many frames.
+double Front::until_due_s() const {
+    const bool runs = (screens_.now() == Screen::Playing && !ended_ && !waits()) || is_backdrop();
+    return runs ? stepper_.until_next_s() : tick_s;
+}
+
+Status Front::run() {
+    FrameClock::time_point before = FrameClock::now();
+    int losses = 0;  // one after the other
+    while (!is_over()) {
+        const input::Input& live = window_.poll();
+        if (script_) {
+            scripted_.begin_frame();
+            script_->play(frames_, scripted_);
+        }
+        const auto now = FrameClock::now();
+        if (window_.is_minimised() && !script_) {
+            if (screens_.now() == Screen::Playing && !watches()) {
+                static_cast<void>(screens_.press({.pause = true}));
+            }
+            update_cursor();
+            before = now;
+            continue;
+        }
+        const double dt_s = ms_between(before, now) * 1e-3;
+        const bool by_clock = !script_ && !options_.frames;
+        const double rest_s = until_due_s() - ready_s - dt_s;
+        if (by_clock && rest_s > 0.0 && !live.anything_happened()) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(std::min(rest_s, 0.004)));
+            continue;
+        }
+        before = now;
+        Status done = frame(script_ ? scripted_ : live,
+                            by_clock ? std::min(dt_s, Stepper::longest_s) : tick_s);
+        if (done) losses = 0;
+        while (!done && done.error().code == ErrorCode::DeviceLost &&
+               ++losses < most_device_losses) {
+            done = exchange(window_.backend());
+        }
+        if (!done) return done;
+        ++frames_;
+    }
+    if (!watches()) {
+        if (const Status kept = keep_recording(); !kept) return kept;
+    }
+    return options_.screenshot.empty() ? Status() : save_picture(options_.screenshot);
+}
+
+}  // namespace gnomon::game
