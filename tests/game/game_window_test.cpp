@@ -75,7 +75,7 @@ protected:
         write(
             "two/levels/b-noon.json",
             "{" + common +
-                R"("name": "Noon", "exit": {"at": [5, 4]}, "sun": {"from_deg": [0, 80], "lux": 90}})");
+                R"("name": "Noon", "exit": {"at": [5, 4]}, "sun": {"from_deg": [0, 80], "lux": 90}, "caught_after_s": 0.3})");
         return joined({"--assets", "two"}, more);
     }
     Image image(const std::string& name) const {
@@ -123,7 +123,7 @@ TEST_P(GameWindowOn, wins_every_level_by_its_recording_with_the_hash_of_no_windo
 }
 
 TEST_P(GameWindowOn, the_clocks_frames_change_no_hash) {
-    write("wait.replay", "gnomon-replay 1\nlevel b-noon\nticks 60\n30 90 0 -\n30 0 -90 s\nend\n");
+    write("wait.replay", "gnomon-replay 1\nlevel a-near\nticks 60\n30 90 0 -\n30 0 -90 s\nend\n");
     const auto ran =
         run_well(on(small(in_two_levels({"--replay", "wait.replay", "--speed", "8"}))));
     EXPECT_THAT(ran.output, EndsWith(hash_line_of(path("wait.replay"), path("two"))));
@@ -134,7 +134,7 @@ TEST_P(GameWindowOn, a_backend_that_is_exchanged_changes_no_hash) {
     skip_without(window::Backend::Gl);
     skip_without(window::Backend::Vk);
     if (IsSkipped()) return;
-    write("walk.replay", "gnomon-replay 1\nlevel b-noon\nticks 60\n60 90 20 -\nend\n");
+    write("walk.replay", "gnomon-replay 1\nlevel a-near\nticks 60\n60 90 20 -\nend\n");
     const auto ran = run_well(
         on(scripted("4 screenshot before.png\n5 tap F2\n6 backend gl\n7 backend vk\n8 tap F2\n"
                     "9 screenshot after.png\n",
@@ -184,11 +184,11 @@ TEST_P(GameWindowOnce, is_won_and_lost_and_remembers_what_was_won) {
                     "47 tap Enter\n"  // the next one
                     "49 tap C\n"      // the first step: only now time goes on
                     "54 screenshot noon.png\n"
-                    "140 screenshot caught.png\n"
-                    "141 tap Enter\n"  // once more
-                    "146 screenshot again.png\n"
-                    "147 tap Escape\n148 tap Up\n149 tap Enter\n"  // to the title
-                    "152 screenshot marked.png\n",
+                    "90 screenshot caught.png\n"
+                    "91 tap Enter\n"  // once more
+                    "95 screenshot again.png\n"
+                    "96 tap Escape\n97 tap Up\n98 tap Enter\n"  // to the title
+                    "100 screenshot marked.png\n",
                     in_two_levels({}))));
     EXPECT_GT(changed_pixels("title.png", "won.png"), 1500U);
     EXPECT_GT(changed_pixels("won.png", "noon.png"), 1500U);

@@ -168,7 +168,10 @@ void draw_hud(const Canvas& canvas, const Session& session, const shadows::View&
                              (state.waits ? 1.0F : 1.0F - eased(13.0, 14.5, state.shown_s));
     if (hint_alpha > 0.0F && !level.hint.empty()) {
         const float most = std::min(720.0F, size.x - 110.0F);
-        const auto lines = Canvas::lines_of(letters.text, 19.0F, most, level.hint);
+        // As many lines as it takes, all about as long.
+        const float length = canvas.width(letters.text, 19.0F, level.hint);
+        const float even = length / std::ceil(length / most) * 1.06F;
+        const auto lines = Canvas::lines_of(letters.text, 19.0F, std::min(even, most), level.hint);
         const float height = 27.0F * static_cast<float>(lines.size());
         const float middle = size.x * 0.5F;
         float top = size.y - 108.0F - height;

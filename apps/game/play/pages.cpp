@@ -130,8 +130,7 @@ void draw_title(const Canvas& canvas, const Screens& screens, const PageState& s
     const Lettering& letters = canvas.letters();
     const glm::vec2 size = canvas.size();
     const float deep = std::min(720.0F, size.x);
-    canvas.fill({0.0F, 0.0F}, size, hue::night, 0.12F);
-    canvas.fade_across({0.0F, 0.0F}, {deep, size.y}, hue::night, 0.78F, 0.0F);
+    canvas.fade_across({0.0F, 0.0F}, {deep, size.y}, hue::night, 0.80F, 0.0F);
     canvas.fade_down({0.0F, size.y - 160.0F}, size, hue::night, 0.0F, 0.8F);
     draw_name(canvas, {title_left - 6.0F, 120.0F}, state.time_s);
     canvas.write(letters.text, 21.0F, {title_left, 236.0F}, hue::moon,
@@ -193,10 +192,10 @@ void draw_end(const Canvas& canvas, const Screens& screens, const PageState& sta
     const float alpha = risen(state.shown_s, 0.0, 0.5);
     const float band = 0.5F * size.y;
     const glm::vec4 tint = won ? hue::night : glm::vec4(0.10F, 0.012F, 0.015F, 1.0F);
-    canvas.fill({0.0F, 0.0F}, size, tint, 0.42F * alpha);
-    canvas.fade_down({0.0F, band - 280.0F}, {size.x, band - 130.0F}, tint, 0.0F, 0.80F * alpha);
-    canvas.fill({0.0F, band - 130.0F}, {size.x, band + 200.0F}, tint, 0.80F * alpha);
-    canvas.fade_down({0.0F, band + 200.0F}, {size.x, band + 330.0F}, tint, 0.80F * alpha, 0.0F);
+    canvas.fill({0.0F, 0.0F}, size, tint, 0.25F * alpha);
+    canvas.fade_down({0.0F, band - 280.0F}, {size.x, band - 130.0F}, tint, 0.0F, 0.66F * alpha);
+    canvas.fill({0.0F, band - 130.0F}, {size.x, band + 200.0F}, tint, 0.66F * alpha);
+    canvas.fade_down({0.0F, band + 200.0F}, {size.x, band + 330.0F}, tint, 0.66F * alpha, 0.0F);
     draw_heading(canvas, band - 140.0F, won ? "UNSEEN" : "CAUGHT", won ? hue::exit : hue::alarm,
                  alpha);
     if (state.session != nullptr) {
