@@ -13,8 +13,8 @@ using input::MouseButton;
 
 constexpr double radians_a_pixel = 0.0032;
 constexpr double turns_a_second = 1.9;  // radians, by keys and sticks
-constexpr double nearest = 1.7;
-constexpr double farthest = 0.65;
+constexpr double most_zoom = 1.7;
+constexpr double least_zoom = 0.65;
 constexpr float trigger_pulled = 0.3F;
 
 bool is_held(const input::Input& input, PadButton button) {
@@ -76,7 +76,7 @@ Look turned(const Look& look, const CameraRig& rig, const input::Input& input,
     const double closer = input.scroll.y + 6.0 * dt_s *
                                                sign_of(is_held(input, PadButton::RightBumper),
                                                        is_held(input, PadButton::LeftBumper));
-    next.nearer = std::clamp(look.nearer * std::pow(1.08, closer), farthest, nearest);
+    next.nearer = std::clamp(look.nearer * std::pow(1.08, closer), least_zoom, most_zoom);
     return next;
 }
 
