@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 #include <utility>
 
 #include <gnomon/shadows/layer_bound.hpp>
 
 #include "internal/footprint.hpp"
+#include "internal/layers.hpp"
 
 namespace gnomon::shadows::internal {
 
@@ -37,7 +39,9 @@ public:
         return most_layers(footprints_);
     }
     void refine_coarsely();
-    void refine();
+    /// False: together they may lie over a point more often than `limit` says, as bounded as they
+    /// can be.
+    [[nodiscard]] bool refine_until_they_fit(std::uint32_t limit);
     /// Replaces volumes of more layers by their parts, and puts draws into an order in which
     /// neighbours seldom cover each other.
     void make_pieces(std::uint32_t limit);
@@ -46,6 +50,8 @@ public:
     std::uint32_t distribute(std::uint32_t limit);
 
 private:
+    bool refine_until_they_fit(std::uint32_t limit, Bounded how);
+
     struct Sorted {
         Piece piece;
         const DrawnPair* drawn = nullptr;
@@ -77,22 +83,46 @@ void Batching::refine_coarsely() {
     for (const DrawnPair& drawn : pairs_) {
         const PairState& pair = light_.pairs[drawn.slot];
         std::uint32_t& layers = layers_of(drawn);
-        if (pair.is(PairFlag::Bounded) || layers <= 1) continue;
+        if (pair.bounded() != Bounded::Quickly || layers <= 1) continue;
         const std::uint32_t coarse = coarse_layer_bound(*drawn.caster->mesh, *drawn.volume,
                                                         space_of(pair, *drawn.caster, light_));
         layers = std::min(layers, coarse);
     }
 }
 
-void Batching::refine() {
+// Bounds proper are dear: first on few cells and of those with the most layers, and no more than it
+// takes. What does not fit at last has been bounded as well as can be, whatever came before.
+bool Batching::refine_until_they_fit(std::uint32_t limit) {
+    return refine_until_they_fit(limit, Bounded::OnHalfGrid) ||
+           refine_until_they_fit(limit, Bounded::OnFullGrid) ||
+           refine_until_they_fit(limit, Bounded::AsWellAsCanBe);
+}
+
+bool Batching::refine_until_they_fit(std::uint32_t limit, Bounded how) {
+    const Grid grid = how == Bounded::OnHalfGrid   ? Grid::Half
+                      : how == Bounded::OnFullGrid ? Grid::Full
+                                                   : Grid::Fine;
+    const std::uint32_t few = grid == Grid::Fine ? many_layers : 1;
+    std::vector<const DrawnPair*> left;
     for (const DrawnPair& drawn : pairs_) {
-        PairState& pair = light_.pairs[drawn.slot];
-        std::uint32_t& layers = layers_of(drawn);
-        if (pair.is(PairFlag::Bounded) || layers <= 1) continue;
-        layers =
-            layer_bound(*drawn.caster->mesh, *drawn.volume, space_of(pair, *drawn.caster, light_));
-        pair.set(PairFlag::Bounded, true);
+        if (light_.pairs[drawn.slot].bounded() < how) left.push_back(&drawn);
     }
+    std::ranges::stable_sort(left, std::greater{},
+                             [&](const DrawnPair* drawn) { return layers_of(*drawn); });
+    std::size_t refined = 0;
+    std::size_t next_look = 1;
+    for (const DrawnPair* drawn : left) {
+        PairState& pair = light_.pairs[drawn->slot];
+        std::uint32_t& layers = layers_of(*drawn);
+        pair.set_bounded(how);
+        if (layers <= few) continue;
+        layers = std::min(layers, layer_bound_on(grid, *drawn->caster->mesh, *drawn->volume,
+                                                 space_of(pair, *drawn->caster, light_)));
+        if (++refined < next_look) continue;
+        next_look *= 2;  // a look goes over all pairs
+        if (most_together() <= limit) return true;
+    }
+    return refined > 0 && most_together() <= limit;
 }
 
 double Batching::distance_to(const DrawnPair& drawn) const {
@@ -169,8 +199,7 @@ std::uint32_t split_into_batches(LightState& light, std::uint32_t limit,
     if (batching.most_together() <= limit) return 1;
     batching.refine_coarsely();
     if (batching.most_together() <= limit) return 1;
-    batching.refine();
-    if (batching.most_together() <= limit) return 1;
+    if (batching.refine_until_they_fit(limit)) return 1;
     const std::uint32_t limit_a_batch = std::min(limit, most_a_batch);
     batching.make_pieces(limit_a_batch);
     memory.batches = batching.distribute(limit_a_batch);

@@ -323,8 +323,8 @@ bool ShadowSystem::State::place_results() {
         const bool has_volume = drawn || (pair.extra != nullptr && pair.extra->whole != nullptr);
         rearranged = rearranged || item.had_volume != has_volume;
         if (pair.extra == nullptr) continue;
-        if (pair.extra->detector != nullptr && !pair.is(PairFlag::Watched)) {
-            pair.set(PairFlag::Watched, true);
+        if (pair.extra->detector != nullptr && !pair.extra->watched) {
+            pair.extra->watched = true;
             detectors.emplace_back(item.light, item.caster);
         }
         pair.release_idle_extra();
@@ -505,10 +505,10 @@ void ShadowSystem::State::let_detectors_rest() {
         const auto [l, c] = place;
         if (c >= lights[l].pairs.size()) return true;
         PairState& pair = lights[l].pairs[c];
-        if (!pair.is(PairFlag::Watched) || pair.extra == nullptr) return true;
+        if (pair.extra == nullptr || !pair.extra->watched) return true;
         if (frame - pair.extra->detected_frame < frames_to_rest) return false;
         pair.extra->detector = nullptr;
-        pair.set(PairFlag::Watched, false);
+        pair.extra->watched = false;
         pair.release_idle_extra();
         return true;
     });

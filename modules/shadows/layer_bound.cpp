@@ -64,8 +64,10 @@ struct Placement {
     }
 };
 
-std::int64_t cells_for(std::size_t edges) {
-    return static_cast<std::int64_t>(std::clamp<std::size_t>(std::bit_ceil(edges / 8 + 1), 8, 256));
+std::int64_t cells_for(std::size_t edges, internal::Grid grid) {
+    const std::size_t cells = std::clamp<std::size_t>(std::bit_ceil(edges / 8 + 1), 8, 256);
+    if (grid == internal::Grid::Half) return static_cast<std::int64_t>(cells / 2);
+    return static_cast<std::int64_t>(grid == internal::Grid::Fine ? 4 * cells : cells);
 }
 
 // right x up = backward: what is counter-clockwise to the light is so in the picture.
@@ -106,14 +108,19 @@ double error_in_picture(const Placement& placement, const glm::dvec2& low, const
            2.0 * placement.error() * (placement.directional() ? 1.0 : (1.0 + largest) / nearest);
 }
 
-std::int64_t even(double x) { return 2 * std::llround(0.5 * x); }
+// The nearest even number; x within +-2^30, moved to where leaving out what is behind the point is
+// rounding down.
+std::int64_t even(double x) {
+    constexpr std::int64_t shift = std::int64_t{1} << 30U;
+    return 2 * (static_cast<std::int64_t>(0.5 * x + (static_cast<double>(shift) + 0.5)) - shift);
+}
 
 // ---------------------------------------------------------------------------------------------
 // One picture holds the whole mesh, and outside it nothing is covered.
 
 std::optional<std::int64_t> bound_in_one_picture(const Placement& placement,
                                                  std::span<const SilhouetteEdge> boundary,
-                                                 const Axes& axes) {
+                                                 const Axes& axes, internal::Grid grid) {
     std::vector<glm::dvec2> points;
     points.reserve(2 * boundary.size());
     glm::dvec2 low(std::numeric_limits<double>::infinity());
@@ -147,17 +154,16 @@ std::optional<std::int64_t> bound_in_one_picture(const Placement& placement,
                          even((p.y - low.y) * scale + border));
     };
     const auto most_with = [&](std::int64_t cells) {
-        WindingGrid grid(cells);
+        WindingGrid windings(cells);
         for (std::size_t i = 0; i < boundary.size(); ++i) {
-            grid.add_edge(to_grid(points[2 * i]), to_grid(points[2 * i + 1]), boundary[i].count);
+            windings.add_edge(to_grid(points[2 * i]), to_grid(points[2 * i + 1]),
+                              boundary[i].count);
         }
-        return grid.most(0);
+        return windings.most(0);
     };
-    // A finer grid costs less than a volume that is split for nothing.
-    constexpr std::int64_t many = 127;
-    const std::int64_t cells = cells_for(boundary.size());
-    const std::int64_t most = most_with(cells);
-    return most <= many ? most : std::min(most, most_with(4 * cells));
+    const std::int64_t most = most_with(cells_for(boundary.size(), grid));
+    if (grid != internal::Grid::Best || most <= internal::many_layers) return most;
+    return std::min(most, most_with(cells_for(boundary.size(), internal::Grid::Fine)));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -299,7 +305,8 @@ bool clip(glm::dvec3& a, glm::dvec3& b, double limit) {
 
 std::optional<std::int64_t> bound_all_round(const Placement& placement,
                                             const internal::CastingFaces& casting,
-                                            std::span<const SilhouetteEdge> boundary) {
+                                            std::span<const SilhouetteEdge> boundary,
+                                            internal::Grid grid) {
     // The pictures overlap a little, and edges reach a little beyond them.
     constexpr double side = 1.0 + 1e-6;
     constexpr double reach = 1.0 + 1e-3;
@@ -315,7 +322,7 @@ std::optional<std::int64_t> bound_all_round(const Placement& placement,
     if (!(placement.error() * 0x1p27 <= nearest)) return std::nullopt;
 
     std::int64_t result = 0;
-    WindingGrid grid(cells_for(boundary.size() / 2));
+    WindingGrid windings(cells_for(boundary.size() / 2, grid));
     const CornerLayers at_corners = layers_at_corners(placement, casting);
     for (int face = 0; face < 6; ++face) {
         const int axis = face % 3;
@@ -332,9 +339,10 @@ std::optional<std::int64_t> bound_all_round(const Placement& placement,
         for (std::size_t i = 0; i < boundary.size(); ++i) {
             glm::dvec3 a = seen(points[2 * i]);
             glm::dvec3 b = seen(points[2 * i + 1]);
-            if (clip(a, b, reach)) grid.add_edge(to_grid(a), to_grid(b), boundary[i].count);
+            if (clip(a, b, reach)) windings.add_edge(to_grid(a), to_grid(b), boundary[i].count);
         }
-        result = std::max(result, grid.most(sign < 0.0 ? at_corners.low : at_corners.high));
+        result = std::max(result, windings.most(sign < 0.0 ? at_corners.low : at_corners.high));
+        windings.clear();
     }
     return result;
 }
@@ -367,7 +375,8 @@ void silhouette_of(const Volume& volume, std::vector<SilhouetteEdge>& silhouette
 }
 
 std::uint32_t bound_layers(const ShadowMesh& mesh, const CastingFaces& casting,
-                           std::span<const SilhouetteEdge> boundary, const LayerSpace& space) {
+                           std::span<const SilhouetteEdge> boundary, const LayerSpace& space,
+                           Grid grid) {
     const Placement placement(mesh, space);
     std::uint64_t sides = 0;
     for (const SilhouetteEdge& edge : boundary) sides += static_cast<std::uint64_t>(edge.count);
@@ -375,10 +384,23 @@ std::uint32_t bound_layers(const ShadowMesh& mesh, const CastingFaces& casting,
     if (quick <= 1) return quick;
 
     const std::optional<Axes> axes = axes_of_one_picture(placement);
-    const auto found = axes ? bound_in_one_picture(placement, boundary, *axes)
-                            : bound_all_round(placement, casting, boundary);
+    const auto found = axes ? bound_in_one_picture(placement, boundary, *axes, grid)
+                            : bound_all_round(placement, casting, boundary, grid);
     if (!found) return quick;
     return static_cast<std::uint32_t>(std::min<std::int64_t>(*found, quick));
+}
+
+std::uint32_t layer_bound_on(Grid grid, const ShadowMesh& mesh, const Volume& volume,
+                             const LayerSpace& space) {
+    std::vector<SilhouetteEdge> boundary;
+    silhouette_of(volume, boundary);
+    // The triples of all near caps follow each other, then what is undone, and nothing more.
+    const std::span<const std::uint32_t> indices(volume.indices);
+    const std::uint32_t first = volume.near_cap.triples.first;
+    const std::uint32_t undone = volume.near_cap.undone.first;
+    return bound_layers(
+        mesh, {indices.subspan(first, undone - first), volume.ranges, indices.subspan(undone)},
+        boundary, space, grid);
 }
 
 }  // namespace internal
@@ -425,15 +447,7 @@ std::uint32_t coarse_layer_bound(const ShadowMesh& mesh, const Volume& volume,
 }
 
 std::uint32_t layer_bound(const ShadowMesh& mesh, const Volume& volume, const LayerSpace& space) {
-    std::vector<SilhouetteEdge> boundary;
-    internal::silhouette_of(volume, boundary);
-    // The triples of all near caps follow each other, then what is undone, and nothing more.
-    const std::span<const std::uint32_t> indices(volume.indices);
-    const std::uint32_t first = volume.near_cap.triples.first;
-    const std::uint32_t undone = volume.near_cap.undone.first;
-    return internal::bound_layers(
-        mesh, {indices.subspan(first, undone - first), volume.ranges, indices.subspan(undone)},
-        boundary, space);
+    return internal::layer_bound_on(internal::Grid::Best, mesh, volume, space);
 }
 
 }  // namespace gnomon::shadows

@@ -419,7 +419,7 @@ void update_pair(PairState& pair, const CasterState& caster, const LightState& l
     if (reason == Reason::Unchanged) return;
 
     pair.changed = static_cast<std::uint16_t>(terms.frame);
-    pair.set(PairFlag::Bounded, false);
+    pair.set_bounded(Bounded::Quickly);
     const Volume* now = work.made != nullptr ? work.made.get() : volume;
     if (now == nullptr) return;
     if (work.made != nullptr) quads = work.quads.get();
@@ -433,7 +433,7 @@ void take_back_from_gpu(PairState& pair, const CasterState& caster, const LightS
     detect(pair, caster, light, terms, caps_for(caster, terms, work),
            {terms.strategy, Choice::ByName}, false, nullptr, scratch, work, own);
     bound_quickly(pair, caster, light, *work.made, nullptr, work);
-    pair.set(PairFlag::Bounded, false);
+    pair.set_bounded(Bounded::Quickly);
     stats.detection.faces_tested += own.detection.faces_tested;
     stats.detection.edges_tested += own.detection.edges_tested;
     stats.detection.double_tests += own.detection.double_tests;

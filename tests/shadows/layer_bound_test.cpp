@@ -15,6 +15,7 @@
 
 #include <gnomon/shadows/facing.hpp>
 
+#include "modules/shadows/internal/layers.hpp"
 #include "modules/shadows/internal/upright_planes.hpp"
 #include "tests/shadows/random_meshes.hpp"
 
@@ -145,6 +146,10 @@ TEST(LayerBound, IsNeverBelowTheTruth) {
         const std::uint32_t quick = quick_layer_bound(c.volume, from_outside);
         ASSERT_GE(bound, truth) << "mesh " << i;
         ASSERT_GE(quick, bound) << "mesh " << i;
+        for (const auto grid : {internal::Grid::Half, internal::Grid::Full, internal::Grid::Fine}) {
+            ASSERT_GE(internal::layer_bound_on(grid, *mesh, c.volume, c.space), truth)
+                << "mesh " << i;
+        }
         const std::uint32_t coarse = coarse_layer_bound(*mesh, c.volume, c.space);
         ASSERT_GE(coarse, truth) << "mesh " << i;
         ASSERT_GE(quick, coarse) << "mesh " << i;

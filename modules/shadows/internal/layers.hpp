@@ -33,9 +33,20 @@ void silhouette_of(const Volume& volume, std::vector<SilhouetteEdge>& silhouette
 [[nodiscard]] std::uint32_t quick_bound(std::uint64_t faces, std::uint64_t sides,
                                         bool from_outside);
 
+/// What layers are bounded on: each grid has twice as many cells a side as the one before it, Fine
+/// four times as many, and takes as many times as long where edges are few. Best is Full, and Fine
+/// as well where that finds many: that costs less than a volume that is split for nothing.
+enum class Grid : std::uint8_t { Half, Full, Fine, Best };
+
+inline constexpr std::uint32_t many_layers = 127;
+
 /// As layer_bound, of casting faces and their boundary.
 [[nodiscard]] std::uint32_t bound_layers(const ShadowMesh& mesh, const CastingFaces& casting,
                                          std::span<const SilhouetteEdge> boundary,
-                                         const LayerSpace& space);
+                                         const LayerSpace& space, Grid grid = Grid::Best);
+
+/// As layer_bound, which is on the best grid.
+[[nodiscard]] std::uint32_t layer_bound_on(Grid grid, const ShadowMesh& mesh, const Volume& volume,
+                                           const LayerSpace& space);
 
 }  // namespace gnomon::shadows::internal

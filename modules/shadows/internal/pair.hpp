@@ -63,6 +63,7 @@ struct PairExtra {
     std::unique_ptr<SilhouetteDetector> detector;
     const SilhouetteStrategy* strategy = nullptr;  ///< the detector's
     std::uint64_t detected_frame = 0;
+    bool watched = false;              ///< the detector is in the list of those that may rest
     bool detector_is_current = false;  ///< the pair's volume is made of what it found last
     /// The pair's volume where the draw list has no draw of it as a whole: parts are drawn instead.
     std::shared_ptr<const Volume> whole;
@@ -85,9 +86,11 @@ enum class PairFlag : std::uint8_t {
     AvertedCaps = 8,   ///< Caster::near_caps
     FiniteFar = 16,    ///< far vertices of its volume are not at infinity
     FromOutside = 32,  ///< seen_from_outside()
-    Bounded = 64,      ///< its layers are layer_bound(), not the quick one
-    Watched = 128,     ///< its detector is in the list of those that may rest
+    // 64 and 128: Bounded
 };
+
+/// What a pair's layers are: by the quick bounds alone, or by what else it took.
+enum class Bounded : std::uint8_t { Quickly, OnHalfGrid, OnFullGrid, AsWellAsCanBe };
 
 inline constexpr std::uint32_t no_draw = std::numeric_limits<std::uint32_t>::max();
 
@@ -111,6 +114,10 @@ struct PairState {
     void set(PairFlag flag, bool on) {
         const auto bit = static_cast<unsigned>(flag);
         flags = static_cast<std::uint8_t>(on ? flags | bit : flags & ~bit);
+    }
+    [[nodiscard]] Bounded bounded() const { return static_cast<Bounded>(flags >> 6U); }
+    void set_bounded(Bounded how) {
+        flags = static_cast<std::uint8_t>((flags & 0x3FU) | static_cast<unsigned>(how) << 6U);
     }
     PairExtra& more() {
         if (extra == nullptr) extra = std::make_unique<PairExtra>();

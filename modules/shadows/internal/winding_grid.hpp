@@ -4,6 +4,7 @@
 // with winding numbers that are exact on its nodes. Integer coordinates, so that nothing rounds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,8 +31,11 @@ public:
     void add_edge(GridPoint a, GridPoint b, std::int32_t count);
 
     /// At least the winding number about every point of the grid (counter-clockwise is positive)
-    /// when that about the first node (1, 1) is `at_first_node`. Clears the grid.
-    [[nodiscard]] std::int64_t most(std::int64_t at_first_node);
+    /// when that about the first node (1, 1) is `at_first_node`.
+    [[nodiscard]] std::int64_t most(std::int64_t at_first_node) const;
+
+    /// As it was at first: without a piece.
+    void clear();
 
 private:
     void cross_rows(GridPoint a, GridPoint b, std::int32_t count);
@@ -40,12 +44,14 @@ private:
 
     std::int64_t cells_;
     std::int64_t step_;
+    int shift_;  // step_ is two to this
     // What the winding number changes by on the way to a node: along its row from the node before,
     // and up the first column.
     std::vector<std::int32_t> along_row_;
     std::vector<std::int32_t> up_first_column_;
     // For each cell and each of its corners: how much more a point of the cell may have.
-    std::vector<glm::vec<4, std::int32_t>> gain_;
+    using Gain = std::array<std::int32_t, 4>;
+    std::vector<Gain> gain_;
 };
 
 }  // namespace gnomon::shadows::internal
