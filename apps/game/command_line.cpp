@@ -67,6 +67,8 @@ void add_options(CLI::App& app, Options& o) {
         ->check(CLI::Range(0.1, 100.0));
     app.add_option("--capture", o.capture.folder, "Write pictures to this folder")
         ->type_name("DIR");
+    app.add_flag("--times", o.capture.times,
+                 "Tell at the end what frames took: of every tick, or as --every says");
     app.add_option("--every", o.capture.every, "Ticks from picture to picture; default 60")
         ->check(CLI::Range(1, 216000));
     app.add_option("--backend", o.capture.backend, "The device that draws; default one that works")
@@ -144,6 +146,9 @@ int tell_end(const std::string& level_name, const Ended& ended,
              const std::filesystem::path& pictures) {
     fmt::print("{}: {} after {:.2f} s\n", level_name, words_of(ended.outcome),
                seconds(ended.ticks));
+    if (const std::string times = to_text(ended.times); !times.empty()) {
+        fmt::print("{}\n{}", ended.adapter, times);
+    }
     if (ended.pictures > 0) fmt::print("{} pictures in {}\n", ended.pictures, pictures.string());
     fmt::print("hash: {:016x}\n", ended.hash);
     return 0;
@@ -230,16 +235,25 @@ int run(int argc, char** argv) {
         return refuse(std::move(sentence));
     }
     if (o.list_levels) return list_levels(assets_of(o));
-    if (o.headless && o.capture.folder.empty()) {
+    if (!(o.speed >= 0.1 && o.speed <= 100.0)) {  // a range that is checked lets no number in
+        return refuse("--speed must be a number from 0.1 to 100.");
+    }
+    if (o.capture.times && !o.headless) {
+        return refuse("--times is about frames drawn as fast as it goes; give --headless as well.");
+    }
+    const bool draws = !o.capture.folder.empty() || o.capture.times;
+    if (o.capture.times && app.count("--every") == 0) o.capture.every = 1;
+    if (o.headless && !draws) {
         for (const char* name : {"--backend", "--size", "--samples"}) {
             if (app.count(name) == 0) continue;
             return refuse(fmt::format(
-                "{} is about pictures, which are kept by --capture DIR alone; give both.", name));
+                "{} is about what is drawn, by --capture DIR or --times alone; give one as well.",
+                name));
         }
     }
-    if (o.capture.folder.empty() && app.count("--every") > 0) {
+    if (!draws && app.count("--every") > 0) {
         return refuse(
-            "--every is about pictures, which are kept by --capture DIR alone; give both.");
+            "--every is about what is drawn, by --capture DIR or --times alone; give one as well.");
     }
     if (o.headless) {
         for (const char* name : {"--speed", "--script", "--screenshot", "--frames"}) {

@@ -2,11 +2,13 @@
 #include "drawing.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include <gnomon/render/camera.hpp>
 
+#include "frame_times.hpp"
 #include "movers.hpp"
 
 namespace gnomon::game {
@@ -84,10 +86,12 @@ Status Drawing::configure(const DrawingOptions& options) {
 
 Status Drawing::draw(Stage& stage, const Level& level, const shadows::View& view,
                      const std::function<Status(std::size_t)>& after_light) {
+    const auto start = std::chrono::steady_clock::now();
     auto frame = system_.begin_frame();
     if (const Status done = stage.adapter().submit(stage.scene(), frame); !done) return done;
     const shadows::DrawList& list = std::move(frame).finish(view);
     stats_ = list.stats;
+    shadows_ms_ = milliseconds_since(start);
     const Mood& mood = level.mood;
     return renderer_.render({.scene = stage.scene(),
                              .view = view,

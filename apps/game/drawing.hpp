@@ -62,6 +62,8 @@ public:
     [[nodiscard]] const render::Renderer& renderer() const { return renderer_; }
     /// Of the last frame.
     [[nodiscard]] const shadows::FrameStats& shadow_stats() const { return stats_; }
+    /// What the shadow system took of the last frame: poses, culling, silhouettes, volumes.
+    [[nodiscard]] double shadows_ms() const { return shadows_ms_; }
 
 private:
     Drawing(gpu::Device& device, const DrawingOptions& options, shadows::ShadowSystem system,
@@ -72,6 +74,7 @@ private:
     shadows::ShadowSystem system_;
     render::Renderer renderer_;
     shadows::FrameStats stats_;
+    double shadows_ms_ = 0.0;
 };
 
 }  // namespace gnomon::game

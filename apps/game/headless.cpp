@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "headless.hpp"
 
+#include <chrono>
 #include <optional>
 #include <system_error>
 
@@ -20,7 +21,9 @@ public:
 
     Status open(World& world) {
         std::error_code error;
-        std::filesystem::create_directories(options_.folder, error);
+        if (!options_.folder.empty()) {
+            std::filesystem::create_directories(options_.folder, error);
+        }
         if (error) {
             return fail(ErrorCode::Io, fmt::format("{}: the folder cannot be made: {}.",
                                                    options_.folder.string(), error.message()));
@@ -43,12 +46,23 @@ public:
         return {};
     }
 
-    Status take(World& world, std::size_t place) {
+    Status take(World& world, std::size_t place, Ended& ended) {
         const double aspect = static_cast<double>(options_.width) / options_.height;
         const shadows::View view = follow(world.level(), world.player(), aspect);
+        const auto start = std::chrono::steady_clock::now();
         if (const Status drawn = drawing_->draw(world.stage(), world.level(), view); !drawn) {
             return drawn;
         }
+        if (options_.times) {
+            if (const Status finished = device_->wait_idle(); !finished) return finished;
+            if (place > 0) {
+                ended.times.frame.push_back(milliseconds_since(start));
+                ended.times.shadows.push_back(drawing_->shadows_ms());
+                ended.times.record.push_back(drawing_->renderer().times().record_ms);
+            }
+        }
+        if (options_.folder.empty()) return {};
+        ++ended.pictures;
         const auto rgba = drawing_->read_picture();
         if (!rgba) return forward_error(rgba);
         cli::OutputFiles files;
@@ -56,6 +70,8 @@ public:
                                            options_.width, options_.height, *rgba);
         return added ? files.commit() : added;
     }
+
+    [[nodiscard]] const std::string& adapter() const { return device_->caps().adapter; }
 
 private:
     const CaptureOptions& options_;
@@ -69,21 +85,22 @@ Result<Ended> play(const Level& level, const Recording& recording, const Capture
     auto world = World::create(level);
     if (!world) return forward_error(world);
     Camera camera(capture);
-    const bool captures = !capture.folder.empty();
+    const bool draws = !capture.folder.empty() || capture.times;
     Ended ended;
-    const auto take = [&](std::size_t place) {
-        ++ended.pictures;
-        return camera.take(*world, place);
-    };
-    if (captures) {
+    if (draws) {
         if (const Status opened = camera.open(*world); !opened) return forward_error(opened);
-        if (const Status taken = take(0); !taken) return forward_error(taken);
+        ended.adapter = camera.adapter();
+        if (const Status taken = camera.take(*world, 0, ended); !taken) return forward_error(taken);
     }
     for (std::size_t i = 0; i < recording.inputs.size(); ++i) {
+        const auto start = std::chrono::steady_clock::now();
         if (const Status done = world->tick(recording.inputs[i]); !done) return forward_error(done);
         const bool is_due = (i + 1) % capture.every == 0 || i + 1 == recording.inputs.size();
-        if (!captures || !is_due) continue;
-        if (const Status taken = take(i + 1); !taken) return forward_error(taken);
+        if (!draws || !is_due) continue;
+        if (capture.times) ended.times.tick.push_back(milliseconds_since(start));
+        if (const Status taken = camera.take(*world, i + 1, ended); !taken) {
+            return forward_error(taken);
+        }
     }
     ended.outcome = world->outcome();
     ended.ticks = world->now();

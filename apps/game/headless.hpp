@@ -9,6 +9,7 @@
 
 #include <gnomon/core/result.hpp>
 
+#include "frame_times.hpp"
 #include "level.hpp"
 #include "recording.hpp"
 #include "world.hpp"
@@ -17,8 +18,9 @@ namespace gnomon::game {
 
 struct CaptureOptions {
     std::filesystem::path folder;  ///< made where it is missing; empty: no pictures
-    std::uint32_t every = 60;  ///< ticks from picture to picture; the first and the last are kept
-    std::string backend;       ///< empty: the first that works
+    bool times = false;            ///< measure frames; they are kept as pictures in `folder` alone
+    std::uint32_t every = 60;      ///< ticks from frame to frame; the first and the last are drawn
+    std::string backend;           ///< empty: the first that works
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
     std::uint32_t samples = 4;
@@ -29,6 +31,8 @@ struct Ended {
     Tick ticks = 0;          ///< of the game, since its last restart
     std::uint64_t hash = 0;  ///< World::hash() at the end
     std::uint32_t pictures = 0;
+    std::string adapter = {};  ///< what drew; empty: nothing did
+    FrameTimes times = {};  ///< without the first frame, which uploads; empty where not asked for
 };
 
 /// Pictures are named by the place of their input in the recording: tick_000120.png.

@@ -334,7 +334,11 @@ std::optional<std::int64_t> bound_all_round(const Placement& placement,
         };
         const auto to_grid = [&](const glm::dvec3& p) {
             constexpr double scale = static_cast<double>(WindingGrid::width) / (2.0 * side);
-            return GridPoint(even((p.x / p.z + side) * scale), even((p.y / p.z + side) * scale));
+            // Within what the grid takes, whatever is left of a piece that passes the light.
+            const auto at = [&](double x) {
+                return even((std::clamp(x / p.z, -reach, reach) + side) * scale);
+            };
+            return GridPoint(at(p.x), at(p.y));
         };
         for (std::size_t i = 0; i < boundary.size(); ++i) {
             glm::dvec3 a = seen(points[2 * i]);

@@ -221,6 +221,7 @@ Status Window::reopen(Backend backend) {
     const bool was_fullscreen = is_fullscreen();
     if (s.window != nullptr) place = was_fullscreen ? s.windowed : place_of(s.window);
     s.close();
+    s.input.release_all();  // the next window does not hear of keys that are let go
     const Status opened = s.open(backend, place);
     if (!opened && backend != before) {
         // The error that is returned is the first one: it says why the backend did not change.

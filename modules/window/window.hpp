@@ -79,7 +79,7 @@ public:
     /// Takes the device down and makes one of this backend; of the same one after the device was
     /// lost. Every object that was made on the old one is gone, and its owners may be dropped
     /// before or after. The window is made anew at its place, since GLFW binds a window to an API
-    /// for life; input that is held stays held. When it fails the backend before is tried again,
+    /// for life; what was held is let go. When it fails the backend before is tried again,
     /// and the error is returned all the same; only where that failed too, device() is invalid.
     [[nodiscard]] Status reopen(Backend backend);
     /// False only after a reopen() that found neither backend.

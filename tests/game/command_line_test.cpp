@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace {
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::Not;
 using testing::StartsWith;
 
 struct Said {
@@ -96,6 +98,28 @@ TEST(CommandLine, captures_pictures) {
     EXPECT_THAT(said.out, HasSubstr("4 pictures in "));
 }
 
+TEST(CommandLine, tells_what_frames_took) {
+    const std::filesystem::path file = output("timed.replay");
+    std::ofstream(file) << "gnomon-replay 1\nlevel courtyard\nticks 5\n5 0 0 -\nend\n";
+    const Said said = say(
+        {"--headless", "--replay", file.string(), "--times", "--size", "160x90", "--samples", "1"});
+    if (said.error.find("No backend") != std::string::npos) GTEST_SKIP() << said.error;
+    EXPECT_EQ(said.code, 0) << said.error;
+    EXPECT_THAT(said.out, HasSubstr("milliseconds, 5 frames"));
+    for (const char* line : {"simulation and light meter  ", "shadows on the processor  ",
+                             "recording and uploads  ", "frame, until the device has finished  "}) {
+        const std::size_t at = said.out.find(line);
+        ASSERT_NE(at, std::string::npos) << said.out;
+        double median = 0.0;
+        double p95 = 0.0;
+        std::istringstream numbers(said.out.substr(at + std::string_view(line).size()));
+        EXPECT_TRUE(numbers >> median >> p95) << said.out;
+        EXPECT_GT(median, 0.0);
+        EXPECT_LE(median, p95);
+    }
+    EXPECT_THAT(said.out, Not(HasSubstr("pictures in ")));
+}
+
 TEST(CommandLine, refuses_in_one_sentence) {
     const struct {
         std::vector<std::string> arguments;
@@ -118,12 +142,16 @@ TEST(CommandLine, refuses_in_one_sentence) {
          "between, such as 1280x720.\n"},
         {{"--headless", "--autopilot", "--samples", "4"},
          2,
-         "gnomon-game: --samples is about pictures, which are kept by --capture DIR alone; give "
-         "both.\n"},
+         "gnomon-game: --samples is about what is drawn, by --capture DIR or --times alone; give "
+         "one as well.\n"},
         {{"--headless", "--autopilot", "--size", "640x360"},
          2,
-         "gnomon-game: --size is about pictures, which are kept by --capture DIR alone; give "
-         "both.\n"},
+         "gnomon-game: --size is about what is drawn, by --capture DIR or --times alone; give "
+         "one as well.\n"},
+        {{"--replay", "x", "--times"},
+         2,
+         "gnomon-game: --times is about frames drawn as fast as it goes; give --headless as "
+         "well.\n"},
         {{"--headless", "--autopilot", "--frames", "3"},
          2,
          "gnomon-game: --frames is about the window, which --headless goes without.\n"},

@@ -285,6 +285,7 @@ TEST_F(GameWindow, says_what_is_wrong_before_a_window_opens) {
     write("moon.replay", "gnomon-replay 1\nlevel moon\nticks 1\n1 0 0 -\nend\n");
     const std::pair<Arguments, std::vector<std::string>> rows[] = {
         {{"--level", "moon"}, {"moon", "a-near, b-noon"}},
+        {{"--speed", "nan"}, {"--speed must be a number from 0.1 to 100."}},
         {{"--replay", "moon.replay"}, {"moon", "a-near, b-noon"}},
         {{"--replay", "none.replay"}, {"none.replay"}},
         {{"--script", "none.input"}, {"none.input"}},

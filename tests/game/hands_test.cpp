@@ -188,7 +188,7 @@ TEST(Menus, a_gamepad_that_is_pulled_out_pauses_once) {
     EXPECT_FALSE(buttons.was_lost()) << "there was none";
     buttons.see(with_pad({}));
     buttons.see(input::Input());
-    EXPECT_EQ(menu_press(input::Input(), buttons), (MenuPress{.pause = true}));
+    EXPECT_EQ(menu_press(input::Input(), buttons), (MenuPress{.interrupted = true}));
     buttons.see(input::Input());
     EXPECT_EQ(menu_press(input::Input(), buttons), MenuPress{});
 }

@@ -79,6 +79,8 @@ TEST(Screens, pause_and_go_on) {
     screens.begin(1);
     EXPECT_EQ(screens.press(escape), Order{});
     EXPECT_EQ(screens.now(), Screen::Paused);
+    EXPECT_EQ(screens.press({.interrupted = true}), Order{});
+    EXPECT_EQ(screens.now(), Screen::Paused) << "what interrupts never resumes";
     EXPECT_EQ(screens.press(escape), Order{});
     EXPECT_EQ(screens.now(), Screen::Playing) << "the same key";
     EXPECT_EQ(screens.press({.pause = true}), Order{});

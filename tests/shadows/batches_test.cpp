@@ -148,6 +148,32 @@ TEST(Batches, WhatDidNotMoveIsNotSplitAgain) {
     EXPECT_EQ(fourth.draws.size(), 1U);
 }
 
+TEST(Batches, OfVolumesThatTakeTheFinestBoundDoNotDependOnEarlierFrames) {
+    World before;
+    before.mesh = test::build(many_sheets(150));
+    std::vector<std::uint32_t> batches;
+    // One hides the other or not; a third comes and goes.
+    for (const double x : {50.0, 0.1, 0.3, 50.0, 0.2}) {
+        before.poses = {at(0, 0, 0), at(x, 5, 0)};
+        if (x < 0.25) before.poses.push_back(at(0.5 * x, 10, 0));
+        World anew;
+        anew.mesh = before.mesh;
+        anew.poses = before.poses;
+        const DrawList list = before.frame();
+        const DrawList expected = anew.frame();
+        ASSERT_EQ(list.draws.size(), expected.draws.size());
+        for (std::size_t i = 0; i < list.draws.size(); ++i) {
+            EXPECT_EQ(list.draws[i].batch, expected.draws[i].batch) << x;
+        }
+        batches.push_back(list.lights[0].batches);
+    }
+    EXPECT_EQ(batches[0], 1U) << "side by side";
+    EXPECT_GT(batches[1], 1U);
+    EXPECT_GT(batches[2], 1U);
+    EXPECT_EQ(batches[3], 1U);
+    EXPECT_EQ(batches[4], batches[1]);
+}
+
 TEST(Batches, ALightThatCreepsWithinTheMarginIsBoundedAnew) {
     // Seen from straight above the two stacks lie side by side; a step of the light that changes no
     // face's side brings one behind the other.

@@ -70,8 +70,11 @@ Status Front::start() {
 }
 
 bool Front::is_over() const {
-    if (over_ || (options_.frames && frames_ >= *options_.frames)) return true;
-    if (!script_) return window_.input().close_requested;
+    if (over_ || window_.input().close_requested ||
+        (options_.frames && frames_ >= *options_.frames)) {
+        return true;
+    }
+    if (!script_) return false;
     if (scripted_.close_requested) return true;
     // What is watched is watched to its end.
     return !watches() && !options_.frames && frames_ > script_->last_frame() + 2;
@@ -253,12 +256,13 @@ Status Front::draw(const input::Input& input, double dt_s) {
         return drawn;
     }
     has_drawn_ = true;
-    if (std::exchange(picture_due_, false) && !options_.capture.empty() && !is_backdrop()) {
+    if (picture_due_ && !options_.capture.empty() && !is_backdrop()) {
         const auto name = fmt::format("tick_{:06}.png", session_->played().inputs.size());
         if (const Status kept = save_picture(options_.capture / name); !kept) return kept;
         ++pictures_;
         if (ended_) ended_->pictures = pictures_;
     }
+    picture_due_ = false;
     const auto drawn = FrameClock::now();
     const Status shown = window_.present(picture);
     panel_.shadows = drawing_->shadow_stats();
@@ -320,7 +324,7 @@ Status Front::run() {
         const auto now = FrameClock::now();
         if (window_.is_minimised() && !script_) {
             if (screens_.now() == Screen::Playing && !watches()) {
-                static_cast<void>(screens_.press({.pause = true}));
+                static_cast<void>(screens_.press({.interrupted = true}));
             }
             update_cursor();
             before = now;
@@ -341,9 +345,15 @@ Status Front::run() {
                ++losses < most_device_losses) {
             done = exchange(window_.backend());
         }
-        if (!done) return done;
+        if (!done) {
+            // What failed costs nobody what was pressed, or set.
+            if (!watches()) static_cast<void>(keep_recording());
+            save_what_is_sound();
+            return done;
+        }
         ++frames_;
     }
+    save_what_is_sound();
     if (!watches()) {
         if (const Status kept = keep_recording(); !kept) return kept;
     }

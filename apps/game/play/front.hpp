@@ -66,6 +66,7 @@ private:
     [[nodiscard]] Status show_backdrop();
     [[nodiscard]] Status change(Setting setting, int by);
     void save();
+    void save_what_is_sound();  ///< unless the file that is there could not be read
     void remember_win();
     [[nodiscard]] Status keep_recording() const;
     [[nodiscard]] Status save_picture(const std::filesystem::path& path);

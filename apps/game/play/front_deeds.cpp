@@ -131,9 +131,11 @@ Status Front::switch_backend() {
         say("There is one backend in this build.");
         return {};
     }
-    const Status exchanged = exchange(
-        window_.backend() == window::Backend::Gl ? window::Backend::Vk : window::Backend::Gl);
-    if (exchanged) settings_.backend = std::string(window::name_of(window_.backend()));
+    const window::Backend before = window_.backend();
+    const Status exchanged =
+        exchange(before == window::Backend::Gl ? window::Backend::Vk : window::Backend::Gl);
+    if (exchanged && window_.backend() != before)
+        settings_.backend = std::string(window::name_of(window_.backend()));
     return exchanged;
 }
 
@@ -148,6 +150,10 @@ Status Front::change(Setting setting, int by) {
 
 void Front::save() {
     if (settings_ == saved_) return;
+    Settings but_for_wins = saved_;
+    but_for_wins.won = settings_.won;
+    // What nobody could read is only written over when somebody asks for it.
+    if (file_is_broken_ && settings_ == but_for_wins) return;
     const Status kept = save_settings(options_.settings, settings_);
     if (!kept) {
         say(kept.error().message);
@@ -163,7 +169,10 @@ void Front::remember_win() {
         settings_.won.push_back(name);
     }
     lines_[screens_.level()].won = true;
-    // What nobody could read is only written over when somebody asks for it.
+    save_what_is_sound();
+}
+
+void Front::save_what_is_sound() {
     if (!file_is_broken_) save();
 }
 

@@ -110,8 +110,8 @@ MenuPress menu_press(const input::Input& input, const Buttons& buttons) {
     press.accept = pressed(Key::Enter) || pressed(Key::Space) || buttons.was_pressed(PadButton::A);
     press.back =
         pressed(Key::Escape) || pressed(Key::Backspace) || buttons.was_pressed(PadButton::B);
-    press.pause = pressed(Key::Escape) || pressed(Key::P) ||
-                  buttons.was_pressed(PadButton::Start) || buttons.was_lost();
+    press.pause = pressed(Key::Escape) || pressed(Key::P) || buttons.was_pressed(PadButton::Start);
+    press.interrupted = buttons.was_lost();
     press.restart = pressed(Key::R) || buttons.was_pressed(PadButton::Back);
     return press;
 }

@@ -11,7 +11,7 @@ namespace gnomon::game {
 
 namespace {
 
-float eased(double from, double to, double value) {
+float faded(double from, double to, double value) {
     const double share = std::clamp((value - from) / (to - from), 0.0, 1.0);
     return static_cast<float>(share * share * (3.0 - 2.0 * share));
 }
@@ -152,8 +152,8 @@ void draw_hud(const Canvas& canvas, const Session& session, const shadows::View&
     }
 
     // The name first, large; then, for a while, what the level has to say.
-    const float name_alpha = eased(0.1, 0.6, state.shown_s) *
-                             (state.waits ? 1.0F : 1.0F - eased(2.0, 2.8, state.shown_s));
+    const float name_alpha = faded(0.1, 0.6, state.shown_s) *
+                             (state.waits ? 1.0F : 1.0F - faded(2.0, 2.8, state.shown_s));
     if (name_alpha > 0.0F) {
         canvas.write(letters.bold, 40.0F, {size.x * 0.5F, size.y * 0.24F}, hue::moon, level.name,
                      0.5F, name_alpha);
@@ -161,11 +161,11 @@ void draw_hud(const Canvas& canvas, const Session& session, const shadows::View&
     if (state.waits) {
         const auto pulse = static_cast<float>(0.75 + 0.25 * std::sin(state.shown_s * 4.0));
         canvas.write(letters.text, 19.0F, {size.x * 0.5F, size.y * 0.24F + 54.0F}, hue::lamp,
-                     "Your first step begins it", 0.5F, eased(1.0, 1.6, state.shown_s) * pulse);
+                     "Your first step begins it", 0.5F, faded(1.0, 1.6, state.shown_s) * pulse);
     }
     // Until there was time to read it, and somebody has moved.
-    const float hint_alpha = eased(0.3, 0.9, state.shown_s) *
-                             (state.waits ? 1.0F : 1.0F - eased(13.0, 14.5, state.shown_s));
+    const float hint_alpha = faded(0.3, 0.9, state.shown_s) *
+                             (state.waits ? 1.0F : 1.0F - faded(13.0, 14.5, state.shown_s));
     if (hint_alpha > 0.0F && !level.hint.empty()) {
         const float most = std::min(720.0F, size.x - 110.0F);
         // As many lines as it takes, all about as long.

@@ -101,7 +101,7 @@ Order Screens::accept() {
 
 Order Screens::press(const MenuPress& press) {
     if (now_ == Screen::Playing) {
-        if (press.pause) {
+        if (press.pause || press.interrupted) {
             show(Screen::Paused);
         } else if (press.restart && !watches_) {
             return {.kind = Order::Kind::Restart};

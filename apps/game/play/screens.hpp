@@ -44,6 +44,7 @@ struct MenuPress {
     bool back = false;
     bool pause = false;
     bool restart = false;
+    bool interrupted = false;  ///< somebody cannot go on: pauses, and never resumes
     std::optional<std::size_t> pointed = std::nullopt;  ///< the item that the mouse moved to
     bool operator==(const MenuPress&) const = default;
 };

@@ -35,7 +35,8 @@ void silhouette_of(const Volume& volume, std::vector<SilhouetteEdge>& silhouette
 
 /// What layers are bounded on: each grid has twice as many cells a side as the one before it, Fine
 /// four times as many, and takes as many times as long where edges are few. Best is Full, and Fine
-/// as well where that finds many: that costs less than a volume that is split for nothing.
+/// as well where that finds many: that costs less than a volume that is split for nothing. For a
+/// light among the faces it is Full alone.
 enum class Grid : std::uint8_t { Half, Full, Fine, Best };
 
 inline constexpr std::uint32_t many_layers = 127;
