@@ -21,21 +21,38 @@ std::string place_text(const sun::Place& place) {
                        place.longitude_rad < 0.0 ? "W" : "E");
 }
 
-// From when to when the sun counts, by what is left out after sunrise and before sunset.
-struct Window {
-    std::optional<sun::Instant> begin;
-    std::optional<sun::Instant> end;
+// Sunrises and sunsets that what is left out about them may reach into the period from.
+struct DayEdges {
+    std::vector<sun::Instant> sunrises;
+    std::vector<sun::Instant> sunsets;
 };
 
-Window window_of(const Period& period, const sun::Place& place, const SunRules& rules) {
-    Window window;
+// By the clock a sunset may come before the day's sunrise, or fall on the day after: the days about
+// the date are asked as well, and each a second time from noon to noon, since Daylight has one of
+// each and a day can have two sunsets, just after a midnight and just before the next.
+DayEdges edges_about(const Period& period, const sun::Place& place, const SunRules& rules) {
+    DayEdges edges;
     if (rules.skip_after_sunrise.count() == 0 && rules.skip_before_sunset.count() == 0) {
-        return window;
+        return edges;
     }
-    const sun::Daylight day = sun::daylight_of(period.date, period.offset, place);
-    if (day.sunrise) window.begin = *day.sunrise + rules.skip_after_sunrise;
-    if (day.sunset) window.end = *day.sunset - rules.skip_before_sunset;
-    return window;
+    for (const int days : {-1, 0, 1}) {
+        const sun::Date date = std::chrono::sys_days(period.date) + std::chrono::days(days);
+        for (const std::chrono::hours turned : {std::chrono::hours(0), std::chrono::hours(12)}) {
+            const sun::Daylight day = sun::daylight_of(date, period.offset + turned, place);
+            if (day.sunrise) edges.sunrises.push_back(*day.sunrise);
+            if (day.sunset) edges.sunsets.push_back(*day.sunset);
+        }
+    }
+    return edges;
+}
+
+bool is_left_out(sun::Instant utc, const DayEdges& edges, const SunRules& rules) {
+    return std::ranges::any_of(
+               edges.sunrises,
+               [&](sun::Instant at) { return at <= utc && utc < at + rules.skip_after_sunrise; }) ||
+           std::ranges::any_of(edges.sunsets, [&](sun::Instant at) {
+               return at - rules.skip_before_sunset < utc && utc <= at;
+           });
 }
 
 }  // namespace
@@ -57,7 +74,7 @@ Result<std::vector<Step>> make_steps(const Period& period, const sun::Place& pla
                                 "steps are needed.",
                                 period.step.count(), stretch));
     }
-    const Window window = window_of(period, place, rules);
+    const DayEdges edges = edges_about(period, place, rules);
     std::vector<Step> steps;
     double highest_rad = -std::numbers::pi;
     bool any = false;
@@ -68,8 +85,7 @@ Result<std::vector<Step>> make_steps(const Period& period, const sun::Place& pla
         step.sun = sun::sun_position(step.utc, place, air);
         const double altitude = step.sun.altitude_rad;
         step.counts = altitude > 0.0 && altitude >= rules.min_altitude_rad &&
-                      (!window.begin || step.utc >= *window.begin) &&
-                      (!window.end || step.utc <= *window.end);
+                      !is_left_out(step.utc, edges, rules);
         step.half_seconds = static_cast<std::uint32_t>(2 * period.step.count());
         highest_rad = std::max(highest_rad, altitude);
         any = any || step.counts;

@@ -68,6 +68,51 @@ TEST(Steps, CountOnlyWhereTheRulesLetThem) {
     }
 }
 
+double counted_hours(const Period& period, const sun::Place& place, const SunRules& rules) {
+    const auto steps = make_steps(period, place, {}, rules);
+    if (!steps) return -1.0;
+    double h = 0.0;
+    for (const Step& step : *steps) h += step.counts ? step.half_seconds / half_seconds_an_hour : 0;
+    return h;
+}
+
+// In Reykjavik the sun of the solstice sets four minutes after midnight, and rises at 02:55.
+TEST(Steps, LeaveOutMinutesAboutASunsetAfterMidnight) {
+    constexpr sun::Place reykjavik{64.147 * degree, -21.94 * degree};
+    Period period = day("2026-06-21", 0, 24, 5);
+    period.offset = hours(0);
+    const double all = counted_hours(period, reykjavik, {});
+    EXPECT_NEAR(all, 21.0, 0.5);
+    // The horizon of what counts is the sun's centre's, some minutes from sunrise.
+    const double less = counted_hours(
+        period, reykjavik, {.skip_after_sunrise = hours(2), .skip_before_sunset = hours(1)});
+    EXPECT_NEAR(less, all - 3.0, 0.4);
+    EXPECT_GE(less, all - 3.0);
+    const auto steps = make_steps(period, reykjavik, {}, {.skip_before_sunset = hours(1)});
+    ASSERT_TRUE(steps);
+    for (const Step& step : *steps) {
+        if (step.clock >= hours(5) && step.clock <= hours(22)) {
+            EXPECT_TRUE(step.counts);
+        }
+        // The sunset is the next day's.
+        if (step.clock > hours(23) + minutes(10)) {
+            EXPECT_FALSE(step.counts);
+        }
+    }
+}
+
+// 120 degrees west in UTC: the day ends at two in the night and begins at two in the afternoon.
+TEST(Steps, LeaveOutMinutesWhereverTheClockPutsTheDay) {
+    constexpr sun::Place west{40.0 * degree, -120.0 * degree};
+    Period period = day("2026-03-21", 0, 24, 5);
+    period.offset = hours(0);
+    const double all = counted_hours(period, west, {});
+    EXPECT_NEAR(all, 12.1, 0.2);
+    const double less = counted_hours(
+        period, west, {.skip_after_sunrise = hours(1), .skip_before_sunset = minutes(30)});
+    EXPECT_NEAR(less, all - 1.5, 0.2);
+}
+
 TEST(Steps, SayWhatIsWrong) {
     EXPECT_THAT(message_of(day("2026-03-21", 15, 9), linz), HasSubstr("15:00 to 09:00"));
     EXPECT_THAT(message_of(day("2026-03-21", 9, 9), linz), HasSubstr("empty"));
