@@ -58,16 +58,19 @@ Result<std::vector<SurfacePoint>> sample_surfaces(std::span<const shadows::Caste
     std::vector<SurfacePoint> points;
     for (const shadows::Caster& receiver : receivers) {
         const auto positions = receiver.mesh->positions();
+        // A mirrored pose turns the order of corners about.
+        const double outwards =
+            glm::determinant(glm::dmat3(receiver.world_from_local)) < 0.0 ? -1.0 : 1.0;
         for (const auto& face : receiver.mesh->faces()) {
             Triangle t;
             for (std::size_t k = 0; k < 3; ++k) {
                 t[k] = plan_from_world(glm::dvec3(receiver.world_from_local *
                                                   glm::dvec4(glm::dvec3(positions[face[k]]), 1.0)));
             }
-            const glm::dvec3 cross = glm::cross(t[1] - t[0], t[2] - t[0]);
+            const glm::dvec3 cross = outwards * glm::cross(t[1] - t[0], t[2] - t[0]);
             const double size = glm::length(cross);
-            // Walls that lean out by a hair still count.
-            constexpr double looks_down = -1e-3;
+            // A wall that leans out has sun while it stands low.
+            constexpr double looks_down = -0.999;
             if (!(size > 0.0) || cross.z / size < looks_down) continue;
             if (!append_patches(t, cross / size, spacing_m, most_points, points)) {
                 return fail(

@@ -18,16 +18,17 @@
 namespace gnomon::sun_study {
 
 struct SurfacePoint {
-    glm::dvec3 at_plan{0.0};      ///< the patch's middle, in plan coordinates (plan_grid.hpp)
-    glm::dvec3 normal_plan{0.0};  ///< unit: the side from which the face is counter-clockwise
+    glm::dvec3 at_plan{0.0};  ///< the patch's middle, in plan coordinates (plan_grid.hpp)
+    glm::dvec3 normal_plan{
+        0.0};  ///< unit: the side from which the mesh's face is counter-clockwise
     double area_m2 = 0.0;
     std::array<glm::dvec3, 3> corners_plan{};  ///< of the patch
 };
 
 /// Patches of the faces of `receivers`, each face halved along its longest side until none is
-/// longer than `spacing_m`. Left out are faces without area and those that look down, which no sun
-/// reaches. Fails with ErrorCode::InvalidInput for more than `most_points`. Cost: linear in the
-/// points.
+/// longer than `spacing_m`. Left out are faces without area and those that look straight down, to
+/// 2.6 degrees, which only a sun as low could reach. Mirrored poses keep what is outside. Fails
+/// with ErrorCode::InvalidInput for more than `most_points`. Cost: linear in the points.
 [[nodiscard]] Result<std::vector<SurfacePoint>> sample_surfaces(
     std::span<const shadows::Caster> receivers, double spacing_m, std::size_t most_points);
 

@@ -41,6 +41,49 @@ TEST(SurfacePoints, CoverWallsAndRoofsAndNoFloors) {
                 testing::HasSubstr("more than 1000 points"));
 }
 
+TEST(SurfacePoints, OfAMirroredPoseLookOutwards) {
+    std::vector<shadows::Caster> box{
+        test::caster_of(1, scene::make_box({4.0F, 3.0F, 2.0F}), {100.0, 200.0, 1.5})};
+    box[0].world_from_local = box[0].world_from_local *
+                              glm::dmat4(glm::dmat3(-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0));
+    const auto points = sample_surfaces(box, 0.4, 100000);
+    ASSERT_TRUE(points) << points.error().message;
+    EXPECT_NEAR(area_of(*points), 2.0 * 4.0 * 3.0 + 2.0 * 2.0 * 3.0 + 4.0 * 2.0, 1e-6);
+    double roof = 0.0;
+    for (const SurfacePoint& point : *points) {
+        EXPECT_GT(glm::dot(point.normal_plan, point.at_plan - glm::dvec3(100.0, 200.0, 1.5)), 0.9);
+        if (point.normal_plan.z > 0.9) roof += point.area_m2;
+    }
+    EXPECT_NEAR(roof, 8.0, 1e-6);
+}
+
+// Turned by 20 degrees about the plan's x, one wall of a box leans out and has a low sun.
+TEST(SurfacePoints, HaveWallsThatLeanOut) {
+    std::vector<shadows::Caster> box{
+        test::caster_of(1, scene::make_box({4.0F, 3.0F, 2.0F}), {0.0, 0.0, 5.0})};
+    const double c = std::cos(20.0 * degree);
+    const double s = std::sin(20.0 * degree);
+    box[0].world_from_local =
+        box[0].world_from_local * glm::dmat4(glm::dmat3(1.0, 0.0, 0.0, 0.0, c, s, 0.0, -s, c));
+    const auto points = sample_surfaces(box, 0.4, 100000);
+    ASSERT_TRUE(points);
+    shadows::ShadowQueries queries;
+    queries.update(box);
+    std::size_t leaning = 0;
+    for (const double azimuth : {0.0, 180.0}) {
+        const std::vector<std::uint8_t> lit =
+            lit_points(queries, *points, sun::towards_sun(azimuth * degree, 10.0 * degree));
+        for (std::size_t i = 0; i < lit.size(); ++i) {
+            const glm::dvec3& normal = (*points)[i].normal_plan;
+            if (std::abs(normal.z + s) > 1e-6) continue;  // not the one that leans out
+            const bool turned_to_sun = (azimuth < 90.0) == (normal.y > 0.0);
+            EXPECT_EQ(lit[i], turned_to_sun ? 1 : 0);
+            leaning += lit[i];
+        }
+    }
+    EXPECT_GT(leaning, 10U);
+}
+
 // A wall of 6 m stands 4 m south of another that looks south. With the sun in the south at an
 // altitude whose tangent is 0.5, the shadow reaches 6 - 4 * 0.5 = 4 m up.
 TEST(SurfacePoints, AreInShadowUpToWhereGeometryHasIt) {
