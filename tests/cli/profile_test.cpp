@@ -292,6 +292,65 @@ TEST_F(Profile, IsTheSameInAnyParts) {
     expect_refused({"profile", "--merge", "part1", "other", "--out", "x"}, {"\"dates\" differs"});
 }
 
+TEST_F(Profile, LeavesAloneWhatItHasNotMade) {
+    std::filesystem::create_directories(path("mine/masks"));
+    write("mine/masks/holiday.npy", "mine");
+    expect_refused(profile("mine"), {"--out", "mine", "no study.json"});
+    EXPECT_EQ(read("mine/masks/holiday.npy"), "mine");
+    EXPECT_FALSE(std::filesystem::exists(path("mine/study.json")));
+    // Among another study's files, too.
+    run_well(profile("study"));
+    write("study/masks/holiday.npy", "mine");
+    write("study/notes.txt", "mine");
+    Arguments later = profile("study", {"--shard", "1/2"});
+    std::replace(later.begin(), later.end(), std::string("2026-03-21"), std::string("2026-04-21"));
+    run_well(later);
+    EXPECT_EQ(read("study/masks/holiday.npy"), "mine");
+    EXPECT_EQ(read("study/notes.txt"), "mine");
+    // What was the other study's is gone, with all that was made of it.
+    EXPECT_FALSE(std::filesystem::exists(path("study/masks/2026-03-21T1200.npy")));
+    for (const char* name : {"report.html", "sun-path.png", "hours.png", "hours.pgw", "hours.csv",
+                             "profile.png", "profile.pgw", "summary.json"}) {
+        EXPECT_FALSE(std::filesystem::exists(path(std::string("study/") + name))) << name;
+    }
+    std::filesystem::create_directories(path("odd"));
+    write("odd/study.json", "{\"version\": 0}");
+    expect_refused(profile("odd"), {"odd/study.json", "no study"});
+}
+
+TEST_F(Profile, KeepsWhatIsThereUntilTheNewIsKnownToWork) {
+    run_well(profile("study", {"--shard", "1/1"}));
+    run_well(profile("study"));
+    run_well(profile("copy"));
+    const auto expect_whole = [&](const std::string& when) {
+        SCOPED_TRACE(when);
+        expect_same_files("copy", "study");
+    };
+    expect_refused(profile("study", {"--casters", "tower", "--backend", "null"}),
+                   {"--backend", "nothing would cast"});
+    expect_whole("no backend that draws");
+    Arguments covered = profile("study");
+    std::replace(covered.begin(), covered.end(), std::string("-20,-16,20,24"),
+                 std::string("-1,-1,1,1"));
+    expect_refused(covered, {"--plane", "above every cell"});
+    expect_whole("all under a roof");
+    run_well(profile("part1", {"--casters", "tower", "--shard", "1/2"}));
+    expect_refused({"profile", "--quiet", "--out", "study", "--merge", "part1"},
+                   {"--merge", "masks are in none of the folders"});
+    expect_whole("a part is missing");
+}
+
+TEST_F(Profile, SaysWhichFileCannotBeRemoved) {
+    run_well(profile("study"));
+    // A folder that is not empty is in the way.
+    std::filesystem::remove(path("study/hours.csv"));
+    std::filesystem::create_directories(path("study/hours.csv/kept"));
+    const Outcome outcome = run(profile("study", {"--casters", "tower"}));
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_NE(outcome.errors.find("hours.csv cannot be removed"), std::string::npos)
+        << outcome.errors;
+}
+
 TEST_F(Profile, RunsUnderGnuParallel) {
     if (std::system("parallel --version > /dev/null 2>&1") != 0) {
         GTEST_SKIP() << "GNU parallel is not installed";

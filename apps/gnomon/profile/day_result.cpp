@@ -77,6 +77,10 @@ std::string mask_name(MaskKind kind, const sun::Date& date, const sun_study::Ste
 
 std::string open_mask_name(MaskKind kind) { return fmt::format("{}open.npy", prefix_of(kind)); }
 
+std::string folder_of_date(const Study& study, const sun::Date& date) {
+    return study.dates.size() == 1 ? "" : sun::to_text(date);
+}
+
 std::vector<double> numbers_of(const std::vector<sun_study::SurfacePoint>& points) {
     std::vector<double> numbers;
     numbers.reserve(points.size() * numbers_a_point);

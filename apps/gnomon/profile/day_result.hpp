@@ -51,6 +51,8 @@ enum class MaskKind : std::uint8_t {
 [[nodiscard]] std::string mask_name(MaskKind kind, const sun::Date& date,
                                     const sun_study::Step& step);
 [[nodiscard]] std::string open_mask_name(MaskKind kind);
+/// Where what is made of a date's masks lies in the study's folder; empty: in the folder itself.
+[[nodiscard]] std::string folder_of_date(const Study& study, const sun::Date& date);
 inline constexpr const char* points_name = "surface-points.npy";
 
 /// Sun hours of the points on receivers, for one day.

@@ -40,14 +40,19 @@ public:
             if (!queries_) queries_.emplace().update(subjects_.casters);
             return sun_study::lit_points(*queries_, subjects_.points, job.towards_sun, jobs_);
         }
-        auto& plan = job.kind == MaskKind::Plan ? plan_ : before_;
-        if (!plan) {
-            auto made =
-                make_plan(job.kind == MaskKind::Plan ? subjects_.casters : subjects_.before);
-            if (!made) return forward_error(made);
-            plan = std::move(*made);
-        }
-        return plan->lit(job.towards_sun);
+        if (const Status made = make_ready(job.kind); !made) return forward_error(made);
+        return (job.kind == MaskKind::Plan ? plan_ : before_)->lit(job.towards_sun);
+    }
+
+    // Makes the device and the plan that masks of this kind take.
+    Status make_ready(MaskKind kind) {
+        if (kind == MaskKind::Surface) return {};
+        auto& plan = kind == MaskKind::Plan ? plan_ : before_;
+        if (plan) return {};
+        auto made = make_plan(kind == MaskKind::Plan ? subjects_.casters : subjects_.before);
+        if (!made) return forward_error(made);
+        plan = std::move(*made);
+        return {};
     }
 
 private:
@@ -111,16 +116,23 @@ Result<std::vector<MaskJob>> mask_jobs(const Study& study) {
 
 Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
                   const MaskSubjects& subjects, const ProfileOptions& options,
-                  const std::filesystem::path& masks) {
+                  const std::filesystem::path& masks, bool takes_over,
+                  const std::function<Status()>& before_writing) {
     const Shard shard = options.shard.value_or(Shard{});
     std::vector<const MaskJob*> missing;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         if (i % shard.count + 1 != shard.index) continue;
         const auto [columns, rows] = shape_of(study, jobs[i].kind);
         // A file that cannot be read as a mask is drawn again.
-        if (!read_mask(masks / jobs[i].file, columns, rows)) missing.push_back(&jobs[i]);
+        if (!takes_over || !read_mask(masks / jobs[i].file, columns, rows)) {
+            missing.push_back(&jobs[i]);
+        }
     }
+    if (missing.empty()) return before_writing();
     MaskMaker maker(study, subjects, options.backend);
+    for (const MaskJob* job : missing) {
+        if (const Status ready = maker.make_ready(job->kind); !ready) return ready;
+    }
     const bool progress = !options.quiet && ::isatty(STDERR_FILENO) != 0;
     const auto start = MaskClock::now();
     for (std::size_t i = 0; i < missing.size(); ++i) {
@@ -133,6 +145,9 @@ Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
                                     "m; a higher plane or fewer casters (--casters) leave some "
                                     "open.",
                                     study.grid.height_m));
+        }
+        if (i == 0) {
+            if (const Status ready = before_writing(); !ready) return ready;
         }
         const auto [columns, rows] = shape_of(study, job.kind);
         OutputFiles file;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,14 @@ struct MaskSubjects {
     std::vector<sun_study::SurfacePoint> points;
 };
 
-/// Draws those that fall to the shard and are not in the folder, each written whole or not at all.
-/// Says how far it is on a terminal. Fails as the device does, and with ErrorCode::InvalidInput
-/// where something lies above every cell.
+/// Draws those that fall to the shard and, where `takes_over` says that the folder is the study's,
+/// are not in it; each is written whole or not at all. `before_writing` is called once: when all
+/// that drawing takes was made and the first mask drawn, or nothing is missing; masks can be
+/// written from then on. Says how far it is on a terminal. Fails as the device and `before_writing`
+/// do, and with ErrorCode::InvalidInput where something lies above every cell.
 [[nodiscard]] Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
                                 const MaskSubjects& subjects, const ProfileOptions& options,
-                                const std::filesystem::path& masks);
+                                const std::filesystem::path& masks, bool takes_over,
+                                const std::function<Status()>& before_writing);
 
 }  // namespace gnomon::cli

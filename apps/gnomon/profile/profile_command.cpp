@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +15,7 @@
 #include "profile/draw_masks.hpp"
 #include "profile/mask_files.hpp"
 #include "profile/study_files.hpp"
+#include "profile/study_folder.hpp"
 
 namespace gnomon::cli {
 
@@ -90,55 +90,50 @@ Result<Study> study_of(const ProfileOptions& o, const SiteModel& site) {
     return study;
 }
 
-std::string whole_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// The folder with its study.json. Masks of another study that were in it are removed.
-Status prepare_folder(const Study& study, const fs::path& out) {
-    std::error_code error;
-    fs::create_directories(out / "masks", error);
-    if (error) {
-        return fail(ErrorCode::Io,
-                    fmt::format("{} cannot be made: {}.", out.string(), error.message()));
-    }
-    const std::string text = to_json(study).dump(2) + "\n";
-    if (whole_text(out / "study.json") == text) return {};
-    for (const auto& entry : fs::directory_iterator(out / "masks", error)) {
-        if (entry.path().extension() == ".npy") fs::remove(entry.path(), error);
-    }
-    OutputFiles file;
-    if (const Status added = file.add(out / "study.json", text); !added) return added;
-    return file.commit();
-}
-
-Result<Study> read_study(const fs::path& folder) {
-    const fs::path path = folder / "study.json";
-    std::error_code error;
-    if (!fs::is_regular_file(path, error)) {
-        return fail(ErrorCode::Io,
-                    fmt::format("{} is not there: {} is no folder of gnomon profile.",
-                                path.string(), folder.string()));
-    }
-    return study_from_json(whole_text(path), path.string());
-}
-
-std::string first_difference(const Study& a, const Study& b) {
-    const nlohmann::json left = to_json(a);
-    const nlohmann::json right = to_json(b);
-    for (const auto& [key, value] : left.items()) {
-        if (value != right.at(key)) return key;
-    }
-    return {};
-}
-
 Status take_over(const fs::path& from, const fs::path& to) {
     std::error_code error;
     if (fs::equivalent(from, to, error)) return {};
+    const auto text = whole_text(from);
+    if (!text) return forward_error(text);
     OutputFiles file;
-    if (const Status added = file.add(to, whole_text(from)); !added) return added;
+    if (const Status added = file.add(to, *text); !added) return added;
     return file.commit();
+}
+
+// Where each of a study's masks is found, and its points last, if it has any: name, and the whole
+// path. Nothing is written before all of them are known to be there.
+using Sources = std::vector<std::pair<std::string, fs::path>>;
+
+Result<Sources> find_parts(const ProfileOptions& o, const Study& study) {
+    const auto jobs = mask_jobs(study);
+    if (!jobs) return forward_error(jobs);
+    Sources sources;
+    std::vector<std::string> missing;
+    for (const MaskJob& job : *jobs) {
+        const auto has_it = [&](const std::string& folder) {
+            const auto [columns, rows] = shape_of(study, job.kind);
+            return read_mask(fs::path(folder) / "masks" / job.file, columns, rows).has_value();
+        };
+        const auto found = std::ranges::find_if(o.merge, has_it);
+        if (found == o.merge.end()) {
+            missing.push_back(job.what);
+        } else {
+            sources.emplace_back(job.file, fs::path(*found) / "masks" / job.file);
+        }
+    }
+    if (!missing.empty()) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("--merge: {} of {} masks are in none of the folders, the first of "
+                                "them that of {}: a part is missing, or was cut off.",
+                                missing.size(), jobs->size(), missing.front()));
+    }
+    if (study.surface_points > 0) {
+        const fs::path points = fs::path(o.merge.front()) / "masks" / points_name;
+        const auto numbers = read_numbers(points, numbers_a_point, study.surface_points);
+        if (!numbers) return forward_error(numbers);
+        sources.emplace_back(points_name, points);
+    }
+    return sources;
 }
 
 Status merge(const ProfileOptions& o) {
@@ -154,33 +149,11 @@ Status merge(const ProfileOptions& o) {
                                     o.merge.front(), folder, key));
         }
     }
-    const auto jobs = mask_jobs(*study);
-    if (!jobs) return forward_error(jobs);
+    const auto sources = find_parts(o, *study);
+    if (!sources) return forward_error(sources);
     if (const Status ready = prepare_folder(*study, o.out); !ready) return ready;
-    std::vector<std::string> missing;
-    for (const MaskJob& job : *jobs) {
-        const auto has_it = [&](const std::string& folder) {
-            const auto [columns, rows] = shape_of(*study, job.kind);
-            return read_mask(fs::path(folder) / "masks" / job.file, columns, rows).has_value();
-        };
-        const auto found = std::ranges::find_if(o.merge, has_it);
-        if (found == o.merge.end()) {
-            missing.push_back(job.what);
-            continue;
-        }
-        const Status taken =
-            take_over(fs::path(*found) / "masks" / job.file, o.out / "masks" / job.file);
-        if (!taken) return taken;
-    }
-    if (!missing.empty()) {
-        return fail(ErrorCode::InvalidInput,
-                    fmt::format("--merge: {} of {} masks are in none of the folders, the first of "
-                                "them that of {}: a part is missing, or was cut off.",
-                                missing.size(), jobs->size(), missing.front()));
-    }
-    if (study->surface_points > 0) {
-        const Status taken = take_over(fs::path(o.merge.front()) / "masks" / points_name,
-                                       o.out / "masks" / points_name);
+    for (const auto& [name, path] : *sources) {
+        const Status taken = take_over(path, o.out / "masks" / name);
         if (!taken) return taken;
     }
     return write_study(*study, o.out, {o.eye_plan, o.target_plan});
@@ -210,6 +183,17 @@ Status add_subjects(const ProfileOptions& o, Study& study, MaskSubjects& subject
     return {};
 }
 
+// The study's folder, ready for masks.
+Status begin_folder(const Study& study, const MaskSubjects& subjects, const fs::path& out) {
+    if (const Status ready = prepare_folder(study, out); !ready) return ready;
+    if (subjects.points.empty()) return {};
+    OutputFiles file;
+    const Status added = file.add(out / "masks" / points_name,
+                                  number_matrix(numbers_of(subjects.points), numbers_a_point));
+    if (!added) return added;
+    return file.commit();
+}
+
 Status draw(const ProfileOptions& o) {
     if (const Status given = check_given(o); !given) return given;
     auto site = load_site(o, o.model, o.casters, "--casters");
@@ -221,7 +205,8 @@ Status draw(const ProfileOptions& o) {
     subjects.casters = std::move(site->casters);
     const auto jobs = mask_jobs(*study);
     if (!jobs) return forward_error(jobs);
-    if (const Status ready = prepare_folder(*study, o.out); !ready) return ready;
+    const auto state = state_of_folder(*study, o.out);
+    if (!state) return forward_error(state);
     if (!o.quiet) {
         for (const std::string& note : site->notes) fmt::print(stderr, "{}\n", one_line(note));
         if (!o.height_m) {
@@ -231,14 +216,9 @@ Status draw(const ProfileOptions& o) {
                        study->grid.height_m, above_lowest_m);
         }
     }
-    if (!subjects.points.empty()) {
-        OutputFiles file;
-        const Status added = file.add(o.out / "masks" / points_name,
-                                      number_matrix(numbers_of(subjects.points), numbers_a_point));
-        if (!added) return added;
-        if (const Status kept = file.commit(); !kept) return kept;
-    }
-    const Status drawn = draw_masks(*study, *jobs, subjects, o, o.out / "masks");
+    const Status drawn =
+        draw_masks(*study, *jobs, subjects, o, o.out / "masks", *state == FolderState::Same,
+                   [&] { return begin_folder(*study, subjects, o.out); });
     if (!drawn || o.shard) return drawn;
     return write_study(*study, o.out, {o.eye_plan, o.target_plan});
 }

@@ -210,7 +210,7 @@ Status write_study(const Study& study, const fs::path& out, const SurfaceCamera&
     for (const sun::Date& date : study.dates) {
         const auto parts = gather(study, date, out / "masks");
         if (!parts) return forward_error(parts);
-        const std::string folder = study.dates.size() == 1 ? "" : sun::to_text(date);
+        const std::string folder = folder_of_date(study, date);
         const Status written = write_day(study, *parts, out / folder, camera);
         if (!written) return written;
         page_days.push_back(page_day(parts->day, folder));
