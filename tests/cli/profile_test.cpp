@@ -292,6 +292,60 @@ TEST_F(Profile, IsTheSameInAnyParts) {
     expect_refused({"profile", "--merge", "part1", "other", "--out", "x"}, {"\"dates\" differs"});
 }
 
+// Receivers need not cast: what tells a study with them from another is their own shape and place.
+TEST_F(Profile, BeginsAnewWhereReceiversMoved) {
+    const Arguments more{"--casters", "tower", "--receivers", "shed"};
+    run_well(profile("study", more));
+    write("site.scene.json", R"({"primitives": [
+        {"shape": "box", "name": "tower", "size": [4, 10, 4], "translation": [0, 5, 0]},
+        {"shape": "box", "name": "shed", "size": [2, 2, 2], "translation": [-1, 1, -6]}]})");
+    run_well(profile("study", more));
+    run_well(profile("fresh", more));
+    EXPECT_EQ(read("study/surfaces.csv"), read("fresh/surfaces.csv"));
+    expect_same_files("fresh", "study");
+}
+
+TEST_F(Profile, RefusesAStudyThatItDidNotWrite) {
+    run_well(profile("part", {"--shard", "1/1", "--receivers", "shed"}));
+    const nlohmann::json good = nlohmann::json::parse(read("part/study.json"));
+    const Arguments merge{"profile", "--quiet", "--out", "x", "--merge", "part"};
+    const auto expect_bad = [&](const std::string& pointer, const nlohmann::json& value,
+                                const std::string& key) {
+        nlohmann::json bad = good;
+        bad[nlohmann::json::json_pointer(pointer)] = value;
+        write("part/study.json", bad.dump());
+        expect_refused(merge, {"part/study.json", key});
+    };
+    expect_bad("/from_min", -1, "from_min");
+    expect_bad("/from_min", 900, "to_min");
+    expect_bad("/to_min", 1441, "to_min");
+    expect_bad("/step_s", 0, "step_s");
+    expect_bad("/step_s", 86401, "step_s");
+    expect_bad("/step_s", 1e300, "step_s");
+    expect_bad("/step_s", 60.5, "step_s");
+    expect_bad("/utc_offset_min", 841, "utc_offset_min");
+    expect_bad("/latitude_deg", 90.5, "latitude_deg");
+    expect_bad("/longitude_deg", "14", "longitude_deg");
+    expect_bad("/surface_points", 4000000000U, "surface_points");
+    expect_bad("/surface_points", -1, "surface_points");
+    expect_bad("/grid/cell_m", 0.0, "cell_m");
+    expect_bad("/grid/columns", 0, "columns");
+    expect_bad("/grid/rows", 1 << 21, "rows");
+    expect_bad("/grid/min_m", {1.0}, "min_m");
+    expect_bad("/grid", nullptr, "min_m");
+    expect_bad("/dates", nlohmann::json::array(), "dates");
+    expect_bad("/dates", std::vector<std::string>(401, "2026-03-21"), "dates");
+    expect_bad("/dates", {"2026-03-21", "2026-03-21"}, "dates");
+    expect_bad("/model", 1, "model");
+    expect_bad("/version", 1, "version");
+    write("part/study.json", "[]");
+    expect_refused(merge, {"part/study.json"});
+    write("part/study.json", "{");
+    expect_refused(merge, {"part/study.json", "no JSON"});
+    write("part/study.json", good.dump());
+    run_well(merge);
+}
+
 TEST_F(Profile, LeavesAloneWhatItHasNotMade) {
     std::filesystem::create_directories(path("mine/masks"));
     write("mine/masks/holiday.npy", "mine");

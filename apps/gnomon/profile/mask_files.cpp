@@ -50,11 +50,12 @@ Result<std::vector<double>> read_numbers(const std::filesystem::path& path, std:
     const std::string bytes = bytes_of(path);
     if (bytes.empty()) return fail(ErrorCode::Io, fmt::format("{} cannot be read.", path.string()));
     const std::string header = npy_header(number_type, rows, columns);
-    std::vector<double> numbers(std::size_t{rows} * columns);
-    if (!bytes.starts_with(header) || bytes.size() != header.size() + numbers.size() * 8) {
+    const std::size_t count = std::size_t{rows} * columns;
+    if (!bytes.starts_with(header) || bytes.size() != header.size() + count * 8) {
         return fail(ErrorCode::InvalidInput, fmt::format("{} is no matrix of {} x {} numbers.",
                                                          path.string(), rows, columns));
     }
+    std::vector<double> numbers(count);
     std::memcpy(numbers.data(), bytes.data() + header.size(), numbers.size() * 8);
     return numbers;
 }

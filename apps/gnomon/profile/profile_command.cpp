@@ -24,8 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double above_lowest_m = 0.1;
-constexpr std::uint32_t most_cells_a_side = 1U << 20U;
-constexpr std::size_t most_points = 2'000'000;
 
 Status need(bool given, const char* option) {
     if (given) return {};
@@ -171,13 +169,14 @@ Status add_subjects(const ProfileOptions& o, Study& study, MaskSubjects& subject
     if (!o.receivers) return {};
     const auto receivers = load_site(o, o.model, o.receivers, "--receivers");
     if (!receivers) return forward_error(receivers);
-    auto points = sun_study::sample_surfaces(receivers->casters, o.spacing_m, most_points);
+    auto points = sun_study::sample_surfaces(receivers->casters, o.spacing_m, most_surface_points);
     if (!points) return forward_error(points);
     if (points->empty()) {
         return fail(ErrorCode::InvalidInput,
                     fmt::format("--receivers: what \"{}\" matches in {} has no wall and no roof.",
                                 *o.receivers, o.model));
     }
+    study.receivers_hash = receivers->hash;
     study.surface_points = static_cast<std::uint32_t>(points->size());
     subjects.points = std::move(*points);
     return {};

@@ -17,13 +17,17 @@
 
 namespace gnomon::cli {
 
+inline constexpr std::uint32_t most_cells_a_side = 1U << 20U;
+inline constexpr std::uint32_t most_surface_points = 2'000'000;
+
 struct Study {
     std::string model;       ///< its file's name, without the folder
     std::string model_hash;  ///< of all casters as they are posed
     std::string casters;     ///< the glob; empty: all
     std::string before;      ///< another model to compare with; empty: none
     std::string before_hash;
-    std::string receivers;  ///< the glob of surfaces that are asked about as well; empty: none
+    std::string receivers;       ///< the glob of surfaces that are asked about as well; empty: none
+    std::string receivers_hash;  ///< of them as they are posed
     double spacing_m = 0.0;
     std::uint32_t surface_points = 0;
     double latitude_deg = 0.0;
@@ -44,7 +48,8 @@ struct Study {
 
 /// Numbers keep all their bits.
 [[nodiscard]] nlohmann::json to_json(const Study& study);
-/// Fails with ErrorCode::InvalidInput where it is not what to_json() makes; `place` names the file.
+/// Fails with ErrorCode::InvalidInput where it is not what to_json() makes of a study that
+/// gnomon profile takes, with its limits; `place` names the file.
 [[nodiscard]] Result<Study> study_from_json(const std::string& text, const std::string& place);
 
 /// The steps of one of its dates.
