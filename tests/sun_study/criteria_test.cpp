@@ -14,11 +14,12 @@ using testing::HasSubstr;
 // Ten steps of half an hour; the first and the last are before and after the sun.
 std::vector<Step> ten_steps() {
     std::vector<Step> steps(10);
-    for (Step& step : steps) {
-        step.half_seconds = 3600;
-        step.counts = true;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        steps[i].clock = std::chrono::minutes(30 * i);
+        steps[i].half_seconds = 3600;
+        steps[i].counts = i > 0 && i + 1 < steps.size();
+        steps[i].sun.altitude_rad = steps[i].counts ? 0.5 : -0.1;
     }
-    steps.front().counts = steps.back().counts = false;
     return steps;
 }
 
@@ -76,8 +77,24 @@ TEST(Criteria, OfEn17037AreAnIndicationInAPlan) {
 
 TEST(Criteria, AreForTheWholeDay) {
     std::vector<Step> afternoon = ten_steps();
-    afternoon.front().counts = true;
+    afternoon.front().sun.altitude_rad = 0.1;  // whether or not it counts
     EXPECT_THAT(judged("2026-03-21", afternoon).at("bre209").objection, HasSubstr("whole day"));
+}
+
+TEST(Criteria, OfAreasObjectToSunThatIsLeftOut) {
+    std::vector<Step> steps = ten_steps();
+    steps[1].counts = false;  // half an hour
+    EXPECT_THAT(judged("2026-03-21", steps).at("bre209").objection, HasSubstr("0.50 h"));
+    // The standard has a least altitude of its own.
+    EXPECT_THAT(judged("2026-03-21", steps).at("en17037-minimum").objection, HasSubstr("window"));
+    steps[1].half_seconds = 1800;  // a quarter of an hour
+    EXPECT_EQ(judged("2026-03-21", steps).at("bre209").objection, "");
+}
+
+TEST(Criteria, ObjectToCoarseSteps) {
+    std::vector<Step> steps = ten_steps();
+    for (Step& step : steps) step.clock = step.clock * 2;
+    EXPECT_THAT(judged("2026-03-21", steps).at("bre209").objection, HasSubstr("60 minutes"));
 }
 
 }  // namespace
