@@ -346,6 +346,67 @@ TEST_F(Profile, RefusesAStudyThatItDidNotWrite) {
     run_well(merge);
 }
 
+TEST_F(Profile, OutlinesSomeStepsWhereverItBegins) {
+    const auto outlined = [&](const char* from, const char* step) {
+        Arguments arguments = profile("study");
+        std::replace(arguments.begin(), arguments.end(), std::string("09:00"), std::string(from));
+        std::replace(arguments.begin(), arguments.end(), std::string("1h"), std::string(step));
+        run_well(arguments);
+        std::vector<std::string> clocks;
+        const nlohmann::json s = summary("study");
+        for (const auto& one : s["steps"]) {
+            if (one["outlined"]) clocks.push_back(one["clock"]);
+        }
+        return clocks;
+    };
+    EXPECT_EQ(outlined("09:00", "1h").size(), 7U);
+    // 19 steps: those of whole hours.
+    EXPECT_EQ(outlined("09:00", "20m").size(), 7U);
+    const std::vector<std::string> odd = outlined("09:07", "20m");  // 18 steps
+    ASSERT_EQ(odd.size(), 9U);
+    EXPECT_EQ(odd[1], "09:47");
+}
+
+// Of 23 days every second is drawn, the first and the last among them.
+TEST_F(Profile, SpreadsSunPathsOverAllDates) {
+    const auto path_of = [&](const char* out, const char* dates) {
+        Arguments arguments = profile(out, {"--casters", "shed"});
+        std::replace(arguments.begin(), arguments.end(), std::string("2026-03-21"),
+                     std::string(dates));
+        std::replace(arguments.begin(), arguments.end(), std::string("1h"), std::string("6h"));
+        std::replace(arguments.begin(), arguments.end(), std::string("0.5m"), std::string("2m"));
+        run_well(arguments);
+        return read(std::string(out) + "/sun-path.png");
+    };
+    EXPECT_EQ(path_of("all", "2026-03-01..2026-03-23"),
+              path_of("some", "2026-03-01..2026-03-23/2"));
+}
+
+TEST_F(Profile, SaysWhetherACriterionIsMetOnlyWhereItApplies) {
+    const auto bre = [&](const Arguments& more) {
+        Arguments day = profile("study", more);
+        std::replace(day.begin(), day.end(), std::string("09:00"), std::string("05:00"));
+        std::replace(day.begin(), day.end(), std::string("15:00"), std::string("20:00"));
+        std::replace(day.begin(), day.end(), std::string("1h"), std::string("30m"));
+        run_well(day);
+        return summary("study")["criteria"][0];
+    };
+    EXPECT_TRUE(bre({})["applies"]);
+    EXPECT_TRUE(bre({})["met"]);
+    const nlohmann::json low = bre({"--min-altitude", "10"});
+    EXPECT_FALSE(low["applies"]);
+    EXPECT_FALSE(low.contains("met"));
+}
+
+TEST_F(Profile, RefusesNamesThatJsonCannotHold) {
+    expect_refused(profile("x", {"--casters", "t\xfcr*"}), {"--casters", "not UTF-8"});
+    std::filesystem::copy_file(path("site.scene.json"), path("h\xe4us.scene.json"));
+    Arguments odd = profile("x");
+    odd[1] = "h\xe4us.scene.json";
+    expect_refused(odd, {"MODEL", "not UTF-8"});
+    EXPECT_FALSE(std::filesystem::exists(path("x")));
+}
+
 TEST_F(Profile, LeavesAloneWhatItHasNotMade) {
     std::filesystem::create_directories(path("mine/masks"));
     write("mine/masks/holiday.npy", "mine");

@@ -2,6 +2,7 @@
 #include "profile/day_result.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -13,17 +14,27 @@ namespace {
 
 constexpr std::size_t most_outlines = 16;
 
-// Every how many minutes an outline is drawn: the least of these that gives few enough.
-std::chrono::minutes outline_stride(const std::vector<sun_study::Step>& steps) {
+// Which steps have an outline: those at whole multiples of the least of these minutes that gives
+// few enough; where a study begins at an odd minute and none of them gives any, every n-th.
+std::vector<bool> outlined_steps(const std::vector<sun_study::Step>& steps) {
+    std::vector<bool> outlined(steps.size());
     for (const int minutes : {1, 5, 10, 15, 20, 30, 60, 120, 180}) {
-        const auto count = std::ranges::count_if(steps, [&](const sun_study::Step& step) {
-            return step.counts && step.clock.count() % (minutes * 60) == 0;
-        });
-        if (static_cast<std::size_t>(count) <= most_outlines && (minutes >= 60 || count > 1)) {
-            return std::chrono::minutes(minutes);
+        std::size_t count = 0;
+        for (std::size_t s = 0; s < steps.size(); ++s) {
+            outlined[s] = steps[s].counts && steps[s].clock.count() % (minutes * 60) == 0;
+            count += outlined[s] ? 1 : 0;
         }
+        if (count > 1 && count <= most_outlines) return outlined;
     }
-    return std::chrono::minutes(180);
+    const auto counted = static_cast<std::size_t>(
+        std::ranges::count_if(steps, [](const sun_study::Step& step) { return step.counts; }));
+    const std::size_t every = (counted + most_outlines - 1) / most_outlines;
+    std::size_t number = 0;
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+        outlined[s] = steps[s].counts && number % every == 0;
+        number += steps[s].counts ? 1 : 0;
+    }
+    return outlined;
 }
 
 const char* prefix_of(MaskKind kind) {
@@ -106,9 +117,11 @@ Result<DayResult> gather_day(const Study& study, const sun::Date& date,
     day.steps = std::move(*steps);
     day.open = std::move(*open);
     day.hours = sun_study::SunHours(grid.cell_count());
+    // A day may have as many steps as seconds.
+    static_assert(std::numeric_limits<decltype(day.dark_steps)::value_type>::max() > 86400);
     day.dark_steps.assign(grid.cell_count(), 0);
     day.dark_places.assign(grid.cell_count(), 0.0F);
-    const std::chrono::seconds stride = outline_stride(day.steps);
+    const std::vector<bool> outlined = outlined_steps(day.steps);
     for (std::size_t s = 0; s < day.steps.size(); ++s) {
         const sun_study::Step& step = day.steps[s];
         if (!step.counts) continue;
@@ -122,9 +135,7 @@ Result<DayResult> gather_day(const Study& study, const sun::Date& date,
             ++day.dark_steps[i];
             day.dark_places[i] += place;
         }
-        if (step.clock % stride == std::chrono::seconds(0)) {
-            day.outlines.push_back({s, std::move(*lit)});
-        }
+        if (outlined[s]) day.outlines.push_back({s, std::move(*lit)});
     }
     day.summary = sun_study::summarise(day.hours, day.open);
     day.criteria = sun_study::judge_criteria(day.hours, day.open, date, day.steps);

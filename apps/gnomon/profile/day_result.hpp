@@ -28,10 +28,10 @@ struct DayResult {
     std::vector<std::uint8_t> open;  ///< 0 where something lies above the cell
     /// By cell: the steps that count at which it is dark, and the sum of their places among all
     /// (0 .. 1, by the clock).
-    std::vector<std::uint16_t> dark_steps;
+    std::vector<std::uint32_t> dark_steps;
     std::vector<float> dark_places;
     std::size_t counted_steps = 0;
-    std::vector<ProfileStep> outlines;  ///< of whole hours, or of all steps where those are few
+    std::vector<ProfileStep> outlines;  ///< some 16 at most, evenly over the day
     sun_study::HoursSummary summary;
     std::vector<sun_study::Criterion> criteria;
 

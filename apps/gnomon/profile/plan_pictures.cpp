@@ -73,7 +73,7 @@ std::vector<glm::dvec2> outline_of(const PlanFrame& frame, const sun_study::Plan
 std::vector<glm::dvec2> contour_of(const PlanFrame& frame, const sun_study::PlanGrid& grid,
                                    const DayResult& day, double level_h) {
     std::vector<glm::dvec2> points;
-    // Half a step below: hours come in whole steps, and as many as the level count as inside.
+    // A hair below: cells that have exactly as many hours as the level count as inside.
     const double level = level_h - 1e-6;
     for (std::uint32_t row = 0; row + 1 < grid.rows; ++row) {
         for (std::uint32_t column = 0; column + 1 < grid.columns; ++column) {
@@ -123,7 +123,7 @@ Result<PlanPicture> draw_profile(const Study& study, const DayResult& day) {
             colors[i] = covered;
         } else if (day.dark_steps[i] > 0) {
             const double share = day.dark_steps[i] / static_cast<double>(day.counted_steps);
-            const double place = day.dark_places[i] / day.dark_steps[i];
+            const double place = day.dark_places[i] / static_cast<double>(day.dark_steps[i]);
             colors[i] = mix(white, ramp(day_colors, place), 0.12 + 0.55 * share);
         }
     }

@@ -31,11 +31,31 @@ Status need(bool given, const char* option) {
                 fmt::format("profile needs {}; see gnomon profile --help.", option));
 }
 
+// What study.json has to hold: JSON is UTF-8.
+Status check_utf8(const std::string& text, const char* what) {
+    using json = nlohmann::json;
+    const auto written = [&](json::error_handler_t how) {
+        return json(text).dump(-1, ' ', false, how);
+    };
+    if (written(json::error_handler_t::replace) == written(json::error_handler_t::ignore)) {
+        return {};
+    }
+    return fail(ErrorCode::InvalidInput,
+                fmt::format("{}: {} is not UTF-8, which study.json would have to hold.", what,
+                            one_line(written(json::error_handler_t::replace))));
+}
+
 Status check_given(const ProfileOptions& o) {
     for (const Status& status :
          {need(!o.model.empty(), "a MODEL"), need(o.latitude_deg.has_value(), "--lat"),
           need(o.longitude_deg.has_value(), "--lon"), need(!o.dates.empty(), "--date"),
           need(o.from.has_value(), "--from"), need(o.to.has_value(), "--to")}) {
+        if (!status) return status;
+    }
+    for (const Status& status : {check_utf8(fs::path(o.model).filename().string(), "MODEL"),
+                                 check_utf8(fs::path(o.before).filename().string(), "--before"),
+                                 check_utf8(o.casters.value_or(""), "--casters"),
+                                 check_utf8(o.receivers.value_or(""), "--receivers")}) {
         if (!status) return status;
     }
     if ((o.eye_plan || o.target_plan) && !o.receivers) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "profile/study_files.hpp"
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <optional>
@@ -88,7 +89,7 @@ std::string summary_json(const Study& study, const DayResult& day, const DayResu
         if (!c.objection.empty()) one["objection"] = c.objection;
         if (c.share_needed > 0.0) {
             one["share_needed"] = c.share_needed;
-            one["met"] = c.met;
+            if (c.objection.empty()) one["met"] = c.met;
         }
         criteria.push_back(std::move(one));
     }
@@ -99,7 +100,10 @@ std::string summary_json(const Study& study, const DayResult& day, const DayResu
                  {"azimuth_deg", glm::degrees(step.sun.azimuth_rad)},
                  {"altitude_deg", glm::degrees(step.sun.altitude_rad)},
                  {"hours", step.half_seconds / sun_study::half_seconds_an_hour},
-                 {"counts", step.counts}};
+                 {"counts", step.counts},
+                 {"outlined", std::ranges::any_of(day.outlines, [&](const ProfileStep& outline) {
+                      return &day.steps[outline.step] == &step;
+                  })}};
         if (step.counts) one["mask"] = "masks/" + mask_name(MaskKind::Plan, day.date, step);
         steps.push_back(std::move(one));
     }
@@ -111,7 +115,7 @@ std::string summary_json(const Study& study, const DayResult& day, const DayResu
     summary["steps"] = std::move(steps);
     if (before != nullptr) summary["before"] = figures_of(study, *before);
     if (surfaces != nullptr) summary["surfaces"] = figures_of(*surfaces);
-    return summary.dump(2) + "\n";
+    return summary.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 // One line a row of cells, the uppermost first; nothing under a roof.

@@ -146,7 +146,9 @@ Status prepare_folder(const Study& study, const fs::path& out) {
         if (const Status removed = remove_study(*old, out); !removed) return removed;
     }
     OutputFiles file;
-    const Status added = file.add(out / "study.json", to_json(study).dump(2) + "\n");
+    const std::string text =
+        to_json(study).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+    const Status added = file.add(out / "study.json", text + "\n");
     if (!added) return added;
     return file.commit();
 }

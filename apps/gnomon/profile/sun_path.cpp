@@ -104,10 +104,13 @@ Result<std::vector<std::byte>> draw_sun_path(const Study& study) {
     for (std::size_t i = 0; i < days; ++i) {
         const double t = days > 1 ? static_cast<double>(i) / static_cast<double>(days - 1) : 1.0;
         const Color color = ramp(path_colors, t);
-        draw_day(canvas, study, study.dates[i], color);
+        // Of more, some that are spread over all, the first and the last among them.
+        const sun::Date& date =
+            study.dates[days > 1 ? i * (study.dates.size() - 1) / (days - 1) : 0];
+        draw_day(canvas, study, date, color);
         const glm::dvec2 at(24.0, 92.0 + 18.0 * static_cast<double>(i));
         canvas.rectangle(at, {18.0, 4.0}, color);
-        canvas.text(at + glm::dvec2(26.0, 7.0), sun::to_text(study.dates[i]), {.size = 12.0});
+        canvas.text(at + glm::dvec2(26.0, 7.0), sun::to_text(date), {.size = 12.0});
     }
     canvas.text({24.0, 36.0}, "Sun path", {.size = 22.0, .bold = true});
     canvas.text({24.0, 62.0},
