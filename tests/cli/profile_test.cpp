@@ -4,11 +4,14 @@
 #include "tests/cli/program.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <sstream>
+
+#include <unistd.h>
 
 namespace gnomon::cli::test {
 namespace {
@@ -405,6 +408,37 @@ TEST_F(Profile, RefusesNamesThatJsonCannotHold) {
     odd[1] = "h\xe4us.scene.json";
     expect_refused(odd, {"MODEL", "not UTF-8"});
     EXPECT_FALSE(std::filesystem::exists(path("x")));
+}
+
+TEST_F(Profile, RemovesHalvesOfKilledRuns) {
+    run_well(profile("study"));
+    // No process has this number: it is beyond what Linux gives.
+    const std::string dead = "study/masks/2026-03-21T1200.npy.4194399.part";
+    const std::string fresh = "study/masks/2026-03-21T1300.npy.4194399.part";
+    const std::string foreign = "study/masks/holiday.npy.4194399.part";
+    const std::string alive =
+        "study/masks/2026-03-21T1400.npy." + std::to_string(::getpid()) + ".part";
+    for (const std::string& name : {dead, fresh, foreign, alive}) {
+        write(name, "half");
+        if (name == fresh) continue;
+        std::filesystem::last_write_time(
+            path(name), std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+    }
+    run_well(profile("study"));
+    EXPECT_FALSE(std::filesystem::exists(path(dead)));
+    for (const std::string& name : {fresh, foreign, alive}) {
+        EXPECT_TRUE(std::filesystem::exists(path(name))) << name;
+    }
+}
+
+TEST_F(Profile, MergesWithoutASayOfOtherOptions) {
+    run_well(profile("part", {"--shard", "1/1"}));
+    const Arguments merge{"profile", "--quiet", "--out", "x", "--merge", "part"};
+    expect_refused(joined(merge, {"--grid", "2m"}), {"--merge", "--grid"});
+    expect_refused(joined(merge, {"--min-altitude", "5"}), {"--merge", "--min-altitude"});
+    expect_refused({"profile", "site.scene.json", "--out", "x", "--merge", "part"},
+                   {"--merge", "MODEL"});
+    run_well(merge);
 }
 
 TEST_F(Profile, LeavesAloneWhatItHasNotMade) {

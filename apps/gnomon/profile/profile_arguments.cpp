@@ -2,7 +2,9 @@
 #include "profile/profile_arguments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -233,6 +235,19 @@ void add_surfaces(CLI::App& app, ProfileOptions& o) {
         ->type_name("x,y,height");
 }
 
+// A merged study is that of its parts: what would ask for another is refused, not passed over.
+void check_merge(const CLI::App& profile) {
+    constexpr std::array<std::string_view, 5> allowed{"--merge", "--out", "--quiet", "--eye",
+                                                      "--target"};
+    for (const CLI::Option* option : profile.get_options()) {
+        const std::string name = option->get_positional() ? "MODEL" : option->get_name();
+        if (option->count() == 0 || std::ranges::find(allowed, name) != allowed.end()) continue;
+        throw CLI::ValidationError(
+            "",
+            fmt::format("--merge: {} has no say there; the parts' study.json has it all", name));
+    }
+}
+
 }  // namespace
 
 const CLI::App* add_profile(CLI::App& app, ProfileOptions& o) {
@@ -268,6 +283,9 @@ const CLI::App* add_profile(CLI::App& app, ProfileOptions& o) {
                      fmt::format("One of {}", fmt::join(backend_names(), ", ")))
         ->check(CLI::IsMember(backend_names()));
     profile->add_flag("--quiet", o.quiet, "No notes and no progress line");
+    profile->final_callback([profile, &o] {
+        if (!o.merge.empty()) check_merge(*profile);
+    });
     return profile;
 }
 

@@ -2,11 +2,17 @@
 #include "profile/study_folder.hpp"
 
 #include <array>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <unordered_set>
 #include <vector>
+
+#include <signal.h>
 
 #include <fmt/format.h>
 
@@ -61,6 +67,47 @@ Status remove_study(const Study& study, const fs::path& out) {
         std::error_code error;
         if (folder.empty() || !fs::is_empty(out / folder, error) || error) continue;
         if (const Status removed = remove_file(out / folder); !removed) return removed;
+    }
+    return {};
+}
+
+// Whether it is the temporary name NAME.PID.part of OutputFiles, of a process that has ended. An
+// hour, because processes of other machines, of which nothing is known, may share the folder.
+bool is_left_behind(const fs::path& path) {
+    constexpr std::chrono::hours enough(1);
+    if (path.extension() != ".part") return false;
+    const std::string pid_text = path.stem().extension().string();
+    if (path.stem().stem().extension() != ".npy" || pid_text.size() < 2) return false;
+    int pid = 0;
+    const char* end = pid_text.data() + pid_text.size();
+    const auto [at, wrong] = std::from_chars(pid_text.data() + 1, end, pid);
+    if (wrong != std::errc() || at != end || pid < 1) return false;
+    if (::kill(pid, 0) == 0 || errno != ESRCH) return false;
+    std::error_code error;
+    const auto written = fs::last_write_time(path, error);
+    return !error && fs::file_time_type::clock::now() - written > enough;
+}
+
+Status remove_halves(const Study& study, const fs::path& masks) {
+    const auto jobs = mask_jobs(study);
+    if (!jobs) return forward_error(jobs);
+    std::unordered_set<std::string> names{points_name};
+    for (const MaskJob& job : *jobs) names.insert(job.file);
+    std::vector<fs::path> halves;
+    std::error_code error;
+    fs::directory_iterator entry(masks, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        const fs::path& path = entry->path();
+        if (is_left_behind(path) && names.contains(path.stem().stem().string())) {
+            halves.push_back(path);
+        }
+    }
+    if (error) {
+        return fail(ErrorCode::Io,
+                    fmt::format("{} cannot be read: {}.", masks.string(), error.message()));
+    }
+    for (const fs::path& half : halves) {
+        if (const Status removed = remove_file(half); !removed) return removed;
     }
     return {};
 }
@@ -138,12 +185,13 @@ Status prepare_folder(const Study& study, const fs::path& out) {
         return fail(ErrorCode::Io,
                     fmt::format("{} cannot be made: {}.", out.string(), error.message()));
     }
-    if (*state == FolderState::Same) return {};
+    if (*state == FolderState::Same) return remove_halves(study, out / "masks");
     if (*state == FolderState::Another) {
         const auto old = read_study(out);
         if (!old) return forward_error(old);
         // The old study.json stays until its masks are gone: what is cut off here is still its own.
         if (const Status removed = remove_study(*old, out); !removed) return removed;
+        if (const Status removed = remove_halves(*old, out / "masks"); !removed) return removed;
     }
     OutputFiles file;
     const std::string text =

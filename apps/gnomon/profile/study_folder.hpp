@@ -37,7 +37,8 @@ enum class FolderState : std::uint8_t {
 
 /// Makes the folder this study's, with a study.json and a folder for masks. Of another study's,
 /// what was written for it is removed: its masks and all that was made of them, by name; nothing
-/// else is. Fails as state_of_folder() does, and with ErrorCode::Io.
+/// else is. Halves of this study's masks that a killed run left an hour ago or earlier are removed
+/// as well. Fails as state_of_folder() does, and with ErrorCode::Io.
 [[nodiscard]] Status prepare_folder(const Study& study, const std::filesystem::path& out);
 
 }  // namespace gnomon::cli
