@@ -60,6 +60,48 @@ GLint attachment_value(const GlFunctions& gl, GLenum attachment, GLenum what) {
     return value;
 }
 
+// Of what a framebuffer object has for depth, which is bound afterwards. Left alone where it cannot
+// be asked by these targets.
+void measure(const GlFunctions& gl, GLenum target, Size& size) {
+    const auto ask = [&](GLenum what) {
+        GLint value = 0;
+        gl.GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, what,
+                                               &value);
+        return value;
+    };
+    const GLint type = ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE);
+    const auto name = static_cast<GLuint>(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
+    Size measured;
+    if (type == GL_RENDERBUFFER) {
+        gl.BindRenderbuffer(GL_RENDERBUFFER, name);
+        gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_WIDTH, &measured.width);
+        gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_HEIGHT, &measured.height);
+    } else if (type == GL_TEXTURE) {
+        const GLint level = ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL);
+        drop_errors(gl);
+        gl.BindTexture(target, name);
+        if (gl.GetError() != GL_NO_ERROR) return;  // of another target
+        gl.GetTexLevelParameteriv(target, level, GL_TEXTURE_WIDTH, &measured.width);
+        gl.GetTexLevelParameteriv(target, level, GL_TEXTURE_HEIGHT, &measured.height);
+    } else {
+        return;
+    }
+    size = measured;
+}
+
+// What glClipControl() was told, where the host does not say.
+HostFramebuffer drawn_as(const GlFunctions& gl, const HostTarget& host) {
+    GLint origin = GL_LOWER_LEFT;
+    GLint depth = GL_NEGATIVE_ONE_TO_ONE;
+    gl.GetIntegerv(GL_CLIP_ORIGIN, &origin);
+    gl.GetIntegerv(GL_CLIP_DEPTH_MODE, &depth);
+    const bool zero_to_one = host.clip_zero_to_one.value_or(depth == GL_ZERO_TO_ONE);
+    return {.name = host.name,
+            .owned = host.kind != HostTarget::Kind::Framebuffer,
+            .upper_left = host.clip_upper_left.value_or(origin == GL_UPPER_LEFT),
+            .clip_depth = zero_to_one ? GLenum{GL_ZERO_TO_ONE} : GLenum{GL_NEGATIVE_ONE_TO_ONE}};
+}
+
 // The framebuffer is bound.
 Status check_bits(const GlFunctions& gl, const gpu::TextureDesc& desc, const HostTarget& host,
                   bool is_window) {
@@ -124,12 +166,7 @@ Result<TextureObject> import_host_target(const Adapter& adapter, const gpu::Text
         .format = desc.format,
         .width = desc.width,
         .height = desc.height};
-    texture.host =
-        HostFramebuffer{.name = host.name,
-                        .owned = !is_framebuffer,
-                        .upper_left = host.clip_upper_left,
-                        .clip_depth = host.clip_zero_to_one ? GLenum{GL_ZERO_TO_ONE}
-                                                            : GLenum{GL_NEGATIVE_ONE_TO_ONE}};
+    texture.host = drawn_as(gl, host);
     drop_errors(gl);  // of the host's
     Size size{static_cast<GLint>(desc.width), static_cast<GLint>(desc.height)};
     if (is_framebuffer) {
@@ -138,12 +175,6 @@ Result<TextureObject> import_host_target(const Adapter& adapter, const gpu::Text
         texture.host->name = wrap(gl, host, texture.target, size);
     }
     Status usable = check_errors(gl, fmt::format("Importing {}", name_of(desc, host)));
-    if (usable && (size.width != static_cast<GLint>(desc.width) ||
-                   size.height != static_cast<GLint>(desc.height))) {
-        usable = fail(ErrorCode::InvalidInput,
-                      fmt::format("{} has {} x {} pixels, not {} x {}.", name_of(desc, host),
-                                  size.width, size.height, desc.width, desc.height));
-    }
     // Of a framebuffer that is not complete nothing but its attachments can be asked.
     const bool is_window = is_framebuffer && host.name == 0;
     const GLenum status = usable ? gl.CheckFramebufferStatus(GL_FRAMEBUFFER) : GLenum{GL_NONE};
@@ -155,6 +186,13 @@ Result<TextureObject> import_host_target(const Adapter& adapter, const gpu::Text
                                   name_of(desc, host), status));
     }
     if (usable) usable = check_bits(gl, desc, host, is_window);
+    if (usable && is_framebuffer && !is_window) measure(gl, texture.target, size);
+    if (usable && (size.width != static_cast<GLint>(desc.width) ||
+                   size.height != static_cast<GLint>(desc.height))) {
+        usable = fail(ErrorCode::InvalidInput,
+                      fmt::format("{} has {} x {} pixels, not {} x {}.", name_of(desc, host),
+                                  size.width, size.height, desc.width, desc.height));
+    }
     if (!usable) {
         if (texture.host->owned) gl.DeleteFramebuffers(1, &texture.host->name);
         return forward_error(usable);

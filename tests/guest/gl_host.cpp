@@ -49,6 +49,7 @@ GlHost::GlHost(std::unique_ptr<gl::Context> context, HostWay way)
     make_current();
     make_program();
     make_framebuffer();
+    set_clip_control();
 }
 
 GlHost::~GlHost() {
@@ -83,6 +84,11 @@ void GlHost::make_program() {
     gl_.GenVertexArrays(1, &vertex_array_);
 }
 
+void GlHost::set_clip_control() const {
+    gl_.ClipControl(way_.upper_left ? GL_UPPER_LEFT : GL_LOWER_LEFT,
+                    way_.zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+}
+
 void GlHost::make_framebuffer() {
     const auto width = static_cast<GLsizei>(row_width);
     const auto height = static_cast<GLsizei>(row_height);
@@ -113,8 +119,10 @@ void GlHost::make_framebuffer() {
 }
 
 gl::HostTarget GlHost::target() const {
+    // Framebuffers are imported as they are drawn to; of the others it is said how.
+    if (way_.kind == gl::HostTarget::Kind::Framebuffer) return {.name = framebuffer_};
     return {.kind = way_.kind,
-            .name = way_.kind == gl::HostTarget::Kind::Framebuffer ? framebuffer_ : depth_stencil_,
+            .name = depth_stencil_,
             .clip_zero_to_one = way_.zero_to_one,
             .clip_upper_left = way_.upper_left};
 }
@@ -152,8 +160,7 @@ void GlHost::draw(const Setting& setting) {
     const Camera camera = camera_of(setting);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     gl_.Viewport(0, 0, static_cast<GLsizei>(row_width), static_cast<GLsizei>(row_height));
-    gl_.ClipControl(way_.upper_left ? GL_UPPER_LEFT : GL_LOWER_LEFT,
-                    way_.zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    set_clip_control();
     gl_.Enable(GL_DEPTH_TEST);
     gl_.DepthFunc(way_.reversed ? GL_GREATER : GL_LESS);
     gl_.ClearDepth(way_.reversed ? 0.0 : 1.0);

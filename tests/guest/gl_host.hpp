@@ -95,6 +95,7 @@ public:
 private:
     void make_program();
     void make_framebuffer();
+    void set_clip_control() const;
 
     std::unique_ptr<gl::Context> context_;
     HostWay way_;

@@ -446,6 +446,10 @@ TEST_F(GuestRefusals, each_says_what_to_change) {
         refusal({.name = framebuffer_with(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT, 4)},
                 {.sample_count = 4}),
         "imported");
+    EXPECT_THAT(
+        refusal({.name = framebuffer_with(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT)},
+                {.width = 17}),
+        HasSubstr("has 320 x 240 pixels, not 17 x 240"));
     EXPECT_THAT(refusal({.kind = gl::HostTarget::Kind::Texture}), HasSubstr("0 names no texture"));
     EXPECT_THAT(refusal({.kind = gl::HostTarget::Kind::Renderbuffer, .name = 4711}),
                 HasSubstr("the host's renderbuffer 4711"));
@@ -459,6 +463,22 @@ TEST_F(GuestRefusals, each_says_what_to_change) {
     ASSERT_FALSE(nothing);
     EXPECT_THAT(nothing.error().message, HasSubstr("gl::HostTarget"));
     EXPECT_EQ(host_->gl().GetError(), GLenum{GL_NO_ERROR});
+}
+
+TEST_F(GuestRefusals, sizes_are_those_of_a_framebuffers_texture) {
+    const HostGl& gl = host_->gl();
+    GLuint framebuffer = 0;
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    GLuint texture = 0;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexStorage2D(GL_TEXTURE_2D, 2, GL_DEPTH24_STENCIL8, 2 * row_width, 2 * row_height);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, texture, 1);
+    EXPECT_EQ(refusal({.name = framebuffer}), "imported");
+    EXPECT_THAT(refusal({.name = framebuffer}, {.width = 2 * row_width}),
+                HasSubstr("has 320 x 240 pixels, not 640 x 240"));
+    EXPECT_EQ(gl.GetError(), GLenum{GL_NO_ERROR});
 }
 
 TEST_F(GuestRefusals, sizes_are_those_of_the_hosts_texture) {
