@@ -162,6 +162,11 @@ Status Device::present(TextureId texture) {
     return state_->backend().present(texture);
 }
 
+std::optional<TextureDesc> Device::desc_of(TextureId texture) const {
+    const TextureDesc* desc = state_->find(texture);
+    return desc != nullptr ? std::optional(*desc) : std::nullopt;
+}
+
 const Caps& Device::caps() const { return state_->caps(); }
 
 DeviceCounters Device::counters() const {

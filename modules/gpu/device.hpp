@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -83,6 +84,8 @@ public:
     /// Copies a colour texture onto the window, stretched to its size.
     [[nodiscard]] Status present(TextureId texture);
 
+    /// What a texture was made or imported as; nothing where it is gone or never was.
+    [[nodiscard]] std::optional<TextureDesc> desc_of(TextureId texture) const;
     [[nodiscard]] const Caps& caps() const;
     [[nodiscard]] DeviceCounters counters() const;
 

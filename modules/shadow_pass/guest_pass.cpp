@@ -2,6 +2,7 @@
 #include <gnomon/shadow_pass/guest_pass.hpp>
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,21 +20,58 @@ struct GuestPass::State {
     std::uint64_t recorded_revision = 0;
 };
 
+namespace {
+
+std::string format_words(gpu::Format format) {
+    switch (format) {
+        case gpu::Format::Depth24UnormStencil8: return "Depth24UnormStencil8";
+        case gpu::Format::Depth32FloatStencil8: return "Depth32FloatStencil8";
+        default: return "a format without a stencil";
+    }
+}
+
+std::string target_words(TargetSize size, gpu::Format format, std::uint32_t samples) {
+    return std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels of " +
+           format_words(format) + " with " + std::to_string(samples) +
+           (samples == 1 ? " sample" : " samples");
+}
+
+Status check_target(const gpu::Device& device, const GuestPassDesc& desc) {
+    if (!desc.target) {
+        return fail(ErrorCode::InvalidInput,
+                    "The guest pass has no target: name the host's depth-stencil by "
+                    "Device::import_texture().");
+    }
+    const std::optional<gpu::TextureDesc> target = device.desc_of(desc.target);
+    if (!target) {
+        return fail(ErrorCode::InvalidInput,
+                    "The guest pass's target was freed, or belongs to another device.");
+    }
+    const TargetSize size{target->width, target->height};
+    if (desc.size != size || desc.format != target->format ||
+        desc.sample_count != target->sample_count) {
+        return fail(ErrorCode::InvalidInput,
+                    "The guest pass's target [Texture \"" + target->label + "\"] has " +
+                        target_words(size, target->format, target->sample_count) + ", not " +
+                        target_words(desc.size, desc.format, desc.sample_count) + ".");
+    }
+    return {};
+}
+
+}  // namespace
+
 GuestPass::GuestPass(std::unique_ptr<State> state) : state_(std::move(state)) {}
 GuestPass::GuestPass(GuestPass&&) noexcept = default;
 GuestPass& GuestPass::operator=(GuestPass&&) noexcept = default;
 GuestPass::~GuestPass() = default;
 
 Result<GuestPass> GuestPass::create(gpu::Device& device, const GuestPassDesc& desc) {
-    if (!desc.target) {
+    if (const Status checked = check_target(device, desc); !checked) return forward_error(checked);
+    if (desc.conventions.depth == shadows::HostDepth::MinusOneToOne &&
+        device.caps().backend == "vk") {
         return fail(ErrorCode::InvalidInput,
-                    "The guest pass has no target: name the host's depth-stencil by "
-                    "Device::import_texture().");
-    }
-    if (desc.size.width == 0 || desc.size.height == 0) {
-        return fail(ErrorCode::InvalidInput, "The size of the guest pass's target (" +
-                                                 std::to_string(desc.size.width) + " x " +
-                                                 std::to_string(desc.size.height) + ") is zero.");
+                    "The guest pass's HostConventions::depth is MinusOneToOne, but clip space has "
+                    "depth from 0 to 1 on Vulkan: set it to ZeroToOne.");
     }
     // The one that refuses such depth, and says why.
     if (desc.conventions.depth == shadows::HostDepth::Logarithmic) {

@@ -28,10 +28,10 @@ namespace gnomon::shadow_pass {
 
 struct GuestPassDesc {
     gpu::TextureId target = {};  ///< the host's depth-stencil, by Device::import_texture()
-    TargetSize size = {};        ///< of the target
+    TargetSize size = {};        ///< of the target, as it was imported
     gpu::Format format = gpu::Format::Depth24UnormStencil8;  ///< of the target
     std::uint32_t sample_count = 1;
-    shadows::HostConventions conventions = {};
+    shadows::HostConventions conventions = {};  ///< depth is ZeroToOne on Vulkan
     /// For depth that came from shaders of the host's own. None only where they compute positions
     /// by gnomon's function, from a matrix multiplied as it is here (docs/conventions.md, "One
     /// position function").
@@ -41,8 +41,9 @@ struct GuestPassDesc {
 class GuestPass {
 public:
     /// The device must outlive the pass. Fails as ShadowPass::create() does, with
-    /// ErrorCode::InvalidInput where there is no target or its size is 0, and with Unsupported for
-    /// logarithmic depth.
+    /// ErrorCode::InvalidInput where there is no target, where its size, format or samples are not
+    /// those that it was imported with, or where depth begins at -1 on Vulkan, and with Unsupported
+    /// for logarithmic depth.
     [[nodiscard]] static Result<GuestPass> create(gpu::Device& device, const GuestPassDesc& desc);
     GuestPass(GuestPass&&) noexcept;
     GuestPass& operator=(GuestPass&&) noexcept;

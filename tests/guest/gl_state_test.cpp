@@ -496,6 +496,33 @@ TEST_F(GuestRefusals, sizes_are_those_of_the_hosts_texture) {
     EXPECT_THAT(imported.error().message, HasSubstr("has 320 x 240 pixels, not 17 x 240"));
 }
 
+TEST_F(GuestRefusals, a_pass_is_made_for_the_target_as_it_was_imported) {
+    const auto target = must(device_->import_texture({.label = "depth",
+                                                      .width = row_width,
+                                                      .height = row_height,
+                                                      .format = gpu::Format::Depth24UnormStencil8,
+                                                      .usage = gpu::TextureUsage::RenderAttachment},
+                                                     host_->target()));
+    const auto answer = [&](const shadow_pass::GuestPassDesc& desc) {
+        const auto pass = shadow_pass::GuestPass::create(*device_, desc);
+        return pass ? "made" : pass.error().message;
+    };
+    EXPECT_EQ(answer({.target = target, .size = {row_width, row_height}}), "made");
+    EXPECT_THAT(answer({.size = {row_width, row_height}}), HasSubstr("has no target"));
+    EXPECT_THAT(answer({.target = target, .size = {row_width, 17}}),
+                HasSubstr("[Texture \"depth\"] has 320 x 240 pixels of Depth24UnormStencil8 with "
+                          "1 sample, not 320 x 17 pixels of"));
+    EXPECT_THAT(answer({.target = target,
+                        .size = {row_width, row_height},
+                        .format = gpu::Format::Depth32FloatStencil8}),
+                HasSubstr("not 320 x 240 pixels of Depth32FloatStencil8"));
+    EXPECT_THAT(answer({.target = target, .size = {row_width, row_height}, .sample_count = 4}),
+                HasSubstr("with 4 samples."));
+    EXPECT_THAT(
+        answer({.target = {.index = 4711, .generation = 1}, .size = {row_width, row_height}}),
+        HasSubstr("was freed"));
+}
+
 TEST(GuestContext, must_be_there) {
     EXPECT_THAT(gl::adopt_current_context(nullptr).error().message, HasSubstr("(null)"));
     const auto finds_nothing = [](const char*) -> void* { return nullptr; };

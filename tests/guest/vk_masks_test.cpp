@@ -121,6 +121,14 @@ TEST(VkGuestRefusals, what_cannot_work_is_refused) {
     gpu::TextureDesc desc = image_desc();
     desc.usage = gpu::TextureUsage::RenderAttachment | gpu::TextureUsage::CopySrc;
     EXPECT_THAT(refusal(desc, host.image()), HasSubstr("usage RenderAttachment and no other"));
+    const auto target = must(device.import_texture(image_desc(), host.image()));
+    const auto pass = shadow_pass::GuestPass::create(
+        device, {.target = target,
+                 .size = {row_width, row_height},
+                 .format = gpu::Format::Depth32FloatStencil8,
+                 .conventions = {shadows::HostDepth::MinusOneToOne, false}});
+    ASSERT_FALSE(pass);
+    EXPECT_THAT(pass.error().message, HasSubstr("set it to ZeroToOne"));
     EXPECT_THAT(host.messages, testing::IsEmpty());
 }
 
