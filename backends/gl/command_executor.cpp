@@ -168,7 +168,8 @@ void CommandExecutor::discard_attachments(const gpu::RenderPassDesc& pass) {
             discarded.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
         }
     }
-    if (pass.depth_stencil) {
+    // What is the host's is not ours to discard.
+    if (pass.depth_stencil && !objects_.textures[pass.depth_stencil->texture].host) {
         const gpu::DepthStencilAttachment& attachment = *pass.depth_stencil;
         if (attachment.depth_store_op == gpu::StoreOp::Discard) {
             discarded.push_back(GL_DEPTH_ATTACHMENT);

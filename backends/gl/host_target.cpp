@@ -155,6 +155,10 @@ Result<TextureObject> import_host_target(const Adapter& adapter, const gpu::Text
                                 "RenderAttachment and no other.",
                                 name_of(desc, host)));
     }
+    if (desc.mip_level_count != 1) {
+        return fail(ErrorCode::Unsupported, fmt::format("{} can only have 1 mip level, not {}.",
+                                                        name_of(desc, host), desc.mip_level_count));
+    }
     const bool is_framebuffer = host.kind == HostTarget::Kind::Framebuffer;
     if (!is_framebuffer && host.name == 0) {
         return fail(ErrorCode::InvalidInput, fmt::format("{} is none: 0 names no {}.",

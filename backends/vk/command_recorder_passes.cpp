@@ -175,11 +175,11 @@ void CommandRecorder::prepare_reads(std::span<const gpu::Command> commands,
 }
 
 void CommandRecorder::prepare_attachment(Texture& texture, Usage usage, BarrierBatch& barriers) {
-    if (texture.mip_level_count > 1) {
+    if (texture.host_layout) {
+        texture.tracker.lent(*texture.host_layout);
+    } else if (texture.mip_level_count > 1) {
         // The pass clears level 0 alone.
         define_contents(device_, out_, texture);
-    } else if (texture.host_layout) {
-        texture.tracker.lent(*texture.host_layout);
     } else if (texture.undefined == texture.aspects) {
         texture.tracker.forget_contents();
     }
@@ -208,11 +208,15 @@ RenderPassKey CommandRecorder::describe_attachments(const gpu::RenderPassDesc& p
         const Texture& texture = resources_.textures[attachment.texture];
         AttachmentState state = describe(texture, Usage::DepthStencilAttachment);
         state.load = load_op(attachment.depth_load_op, texture, VK_IMAGE_ASPECT_DEPTH_BIT);
-        state.store = to_vk(attachment.depth_store_op);
+        // What is the host's is not ours to discard.
+        const auto stored = [&](gpu::StoreOp op) {
+            return to_vk(texture.host_layout ? gpu::StoreOp::Store : op);
+        };
+        state.store = stored(attachment.depth_store_op);
         if (gpu::has_stencil(texture.format)) {
             state.stencil_load =
                 load_op(attachment.stencil_load_op, texture, VK_IMAGE_ASPECT_STENCIL_BIT);
-            state.stencil_store = to_vk(attachment.stencil_store_op);
+            state.stencil_store = stored(attachment.stencil_store_op);
         }
         key.depth_stencil.push_back(state);
     }
@@ -230,6 +234,7 @@ void CommandRecorder::note_stores(const gpu::RenderPassDesc& pass) {
     }
     if (pass.depth_stencil) {
         Texture& texture = resources_.textures[pass.depth_stencil->texture];
+        if (texture.host_layout) return;  // stored, whatever the pass says
         note_store(texture, VK_IMAGE_ASPECT_DEPTH_BIT, pass.depth_stencil->depth_store_op);
         note_store(texture, VK_IMAGE_ASPECT_STENCIL_BIT, pass.depth_stencil->stencil_store_op);
     }

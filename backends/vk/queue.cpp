@@ -215,8 +215,12 @@ void Queue::defer(std::function<void()> destroy) {
 }
 
 void Queue::drain() {
-    // A lost device is idle too.
-    device_.fn.DeviceWaitIdle(device_.handle);
+    // A lost device is idle too. A host's other queues need not be, nor may we touch them.
+    if (device_.is_adopted()) {
+        device_.fn.QueueWaitIdle(device_.queue);
+    } else {
+        device_.fn.DeviceWaitIdle(device_.handle);
+    }
     for (const Deferred& deferred : deferred_) {
         deferred.destroy();
     }

@@ -124,6 +124,19 @@ Status fill_in(Device& device, Memory& memory, const gpu::TextureDesc& desc, Tex
     return make_views(device, desc, texture);
 }
 
+/// Whether both aspects of an image can be in this layout at once.
+bool holds_depth_and_stencil(VkImageLayout layout) {
+    switch (layout) {
+        case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL:
+        case VK_IMAGE_LAYOUT_STENCIL_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_STENCIL_READ_ONLY_OPTIMAL:
+        case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR: return false;
+        default: return true;
+    }
+}
+
 Texture described(const gpu::TextureDesc& desc) {
     Texture texture;
     texture.subject = fmt::format("texture '{}'", desc.label);
@@ -166,6 +179,11 @@ Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
                         "the usage RenderAttachment and no other.",
                         texture.subject));
     }
+    if (desc.mip_level_count != 1) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("The host's image of {} can only have 1 mip level, not {}.",
+                                texture.subject, desc.mip_level_count));
+    }
     if (host.image == 0) {
         return fail(ErrorCode::InvalidInput,
                     fmt::format("The host's image of {} is VK_NULL_HANDLE.", texture.subject));
@@ -174,6 +192,13 @@ Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
         return fail(ErrorCode::InvalidInput,
                     fmt::format("The host's image of {} is in a layout in which it has no contents "
                                 "({}): say the one that its depth was drawn in.",
+                                texture.subject, host.layout));
+    }
+    if (!holds_depth_and_stencil(static_cast<VkImageLayout>(host.layout))) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("The host's image of {} is in the layout {}, which is not one of "
+                                "depth and stencil together: depth and stencil must be in one "
+                                "layout, for instance DEPTH_STENCIL_ATTACHMENT_OPTIMAL.",
                                 texture.subject, host.layout));
     }
     texture.handle = reinterpret_cast<VkImage>(host.image);

@@ -450,6 +450,8 @@ TEST_F(GuestRefusals, each_says_what_to_change) {
         refusal({.name = framebuffer_with(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT)},
                 {.width = 17}),
         HasSubstr("has 320 x 240 pixels, not 17 x 240"));
+    EXPECT_THAT(refusal(host_->target(), {.mip_level_count = 2}),
+                HasSubstr("can only have 1 mip level, not 2"));
     EXPECT_THAT(refusal({.kind = gl::HostTarget::Kind::Texture}), HasSubstr("0 names no texture"));
     EXPECT_THAT(refusal({.kind = gl::HostTarget::Kind::Renderbuffer, .name = 4711}),
                 HasSubstr("the host's renderbuffer 4711"));

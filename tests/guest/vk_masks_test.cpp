@@ -96,6 +96,30 @@ INSTANTIATE_TEST_SUITE_P(Ways, GuestInVk, testing::ValuesIn(cases()), [](const a
            (info.param.options.technique ? "_depth_fail" : "");
 });
 
+// Nor a stencil: what a pass would discard of the host's is stored.
+TEST(VkGuest, discards_nothing_of_the_hosts) {
+    auto made = VkHost::create({.name = "host"});
+    if (!made) GTEST_SKIP() << made.error().message;
+    VkHost& host = **made;
+    gpu::Device device(must(vk::adopt_device(host.device())).backend);
+    const auto target = must(device.import_texture(image_desc(), host.image()));
+    host.draw(setting_of("still_life_three_lights"));
+    for (int twice = 0; twice < 2; ++twice) {
+        auto encoder = device.create_command_encoder("discards");
+        {
+            const auto pass =
+                encoder.begin_render_pass({.label = "discards",
+                                           .depth_stencil = gpu::DepthStencilAttachment{
+                                               .texture = target,
+                                               .depth_store_op = gpu::StoreOp::Discard,
+                                               .stencil_store_op = gpu::StoreOp::Discard}});
+        }
+        must(device.submit(must(encoder.finish())));
+    }
+    EXPECT_THAT(host.stencil(), testing::Each(0x55));
+    EXPECT_THAT(host.messages, testing::IsEmpty());
+}
+
 TEST(VkGuestRefusals, what_cannot_work_is_refused) {
     auto made = VkHost::create({.name = "host"});
     if (!made) GTEST_SKIP() << made.error().message;
@@ -121,6 +145,11 @@ TEST(VkGuestRefusals, what_cannot_work_is_refused) {
     gpu::TextureDesc desc = image_desc();
     desc.usage = gpu::TextureUsage::RenderAttachment | gpu::TextureUsage::CopySrc;
     EXPECT_THAT(refusal(desc, host.image()), HasSubstr("usage RenderAttachment and no other"));
+    desc = image_desc();
+    desc.mip_level_count = 2;
+    EXPECT_THAT(refusal(desc, host.image()), HasSubstr("can only have 1 mip level, not 2"));
+    image.layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+    EXPECT_THAT(refusal(image_desc(), image), HasSubstr("depth and stencil must be in one layout"));
     const auto target = must(device.import_texture(image_desc(), host.image()));
     const auto pass = shadow_pass::GuestPass::create(
         device, {.target = target,

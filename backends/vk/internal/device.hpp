@@ -25,6 +25,8 @@ public:
     VkDevice handle = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
 
+    [[nodiscard]] bool is_adopted() const { return !owned_; }
+
     template <class Handle>
     void set_name(VkObjectType type, Handle object, const std::string& name) const {
         set_name_of(type, reinterpret_cast<std::uint64_t>(object), name);

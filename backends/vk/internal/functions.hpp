@@ -120,6 +120,7 @@ namespace gnomon::vk {
     X(GetQueryPoolResults)            \
     X(MapMemory)                      \
     X(QueueSubmit)                    \
+    X(QueueWaitIdle)                  \
     X(ResetFences)                    \
     X(UpdateDescriptorSets)           \
     X(WaitForFences)
