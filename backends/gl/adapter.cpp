@@ -212,8 +212,18 @@ Result<Adapter> open_adapter(const Context& context, const BackendOptions& optio
     adapter.texture_units = get_limit(gl, GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS);
     adapter.uniform_buffer_bindings = get_limit(gl, GL_MAX_UNIFORM_BUFFER_BINDINGS);
     adapter.viewports = std::max(get_limit(gl, GL_MAX_VIEWPORTS), 1U);
+    // Some drivers name no profile at all for the contexts of old, which are compatible.
     adapter.compatibility = (static_cast<GLuint>(get_integer(gl, GL_CONTEXT_PROFILE_MASK)) &
-                             GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
+                             GL_CONTEXT_CORE_PROFILE_BIT) == 0;
+    // Whatever the stencil path: a host may have used it.
+    if (context.is_adopted() && adapter.compatibility &&
+        extensions.has("GL_EXT_stencil_two_side")) {
+        if (const Status loaded =
+                load_function(context, gl.ActiveStencilFaceEXT, "glActiveStencilFaceEXT");
+            !loaded) {
+            return forward_error(loaded);
+        }
+    }
     adapter.caps.backend = "gl";
     adapter.caps.adapter = get_string(gl, GL_RENDERER) + ", OpenGL " + version_text;
     adapter.caps.features = read_features(gl, extensions);

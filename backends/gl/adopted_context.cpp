@@ -21,6 +21,7 @@ public:
         return get_proc_address_(name);
     }
     [[nodiscard]] std::string description() const override { return "the host's"; }
+    [[nodiscard]] bool is_adopted() const override { return true; }
     [[nodiscard]] bool restores_state() const override { return state_ == HostState::Restored; }
 
 private:

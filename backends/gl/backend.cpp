@@ -32,7 +32,9 @@ class Session {
 public:
     Session(Context& context, const Adapter& adapter, KeptScope scope, KeptState::Bound bound)
         : gl_(adapter.gl), status_(context.make_current()) {
-        if (status_ && context.restores_state()) kept_.emplace(adapter, scope, bound);
+        if (!status_ || !context.restores_state()) return;
+        drop_errors(gl_);  // of the host's, which would be taken for ours
+        kept_.emplace(adapter, scope, bound);
     }
     ~Session() {
         if (status_) gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -266,6 +268,11 @@ Result<std::unique_ptr<gpu::Backend>> create_backend(std::unique_ptr<Context> co
     if (context == nullptr) {
         return fail(ErrorCode::InvalidInput,
                     "There is no OpenGL context (null) to make a backend from.");
+    }
+    if (options.debug && context->is_adopted()) {
+        return fail(ErrorCode::Unsupported,
+                    "BackendOptions::debug is not for a context that was adopted, since its debug "
+                    "callback is the host's: set one there, which hears of gnomon's calls too.");
     }
     if (const Status current = context->make_current(); !current) return forward_error(current);
     Result<Adapter> adapter = open_adapter(*context, options);

@@ -26,8 +26,10 @@ struct BackendOptions {
     std::optional<StencilPath> stencil_path =
         std::nullopt;  ///< chosen once; default: Separate, else what there is
     std::vector<std::string> disabled_extensions =
-        {};              ///< treated as absent, for tests of fallbacks
-    bool debug = false;  ///< KHR_debug, synchronous
+        {};  ///< treated as absent, for tests of fallbacks
+    /// KHR_debug, synchronous. Refused for a context that was adopted, whose callback is the
+    /// host's.
+    bool debug = false;
     gpu::MessageSink message_sink = {};
 };
 

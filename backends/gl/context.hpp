@@ -35,6 +35,8 @@ public:
     [[nodiscard]] virtual std::optional<Extent> window_size() const { return std::nullopt; }
     /// Whether OpenGL's state is a host's, which finds it after each call as it was before.
     [[nodiscard]] virtual bool restores_state() const { return false; }
+    /// Whether a host made it and uses it between two calls.
+    [[nodiscard]] virtual bool is_adopted() const { return false; }
     virtual Status swap_buffers() {
         return fail(ErrorCode::Unsupported,
                     "This OpenGL context (" + description() + ") has no window.");
@@ -62,7 +64,11 @@ using GetProcAddress = std::function<void*(const char* name)>;
 enum class HostState : std::uint8_t {
     Restored,  ///< what it was. All that drawing touches is queried for each submission, which may
                ///< make a threaded driver wait; a few bindings for other calls
-    Defaults,  ///< OpenGL's defaults, in all that gnomon touches
+    /// After what was submitted OpenGL's defaults, in switches, write masks, framebuffer, program,
+    /// vertex array, culling, depth range, provoking vertex and clip control. The functions of
+    /// depth, stencil and blending, polygon mode and offset, viewport, scissor, pixel store and the
+    /// bindings of textures and buffers are anybody's guess: for hosts that set what they use.
+    Defaults,
 };
 
 /// The context that is current on this thread, of any platform, core or compatibility profile. It

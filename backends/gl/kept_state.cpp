@@ -8,6 +8,7 @@ namespace {
 
 // Of compatibility contexts, or of EXT_stencil_two_side; <GL/glcorearb.h> does not know them.
 constexpr GLenum alpha_test = 0x0BC0;
+constexpr GLenum polygon_stipple = 0x0B42;
 constexpr GLenum active_stencil_face_ext = 0x8911;
 constexpr GLenum depth_bounds_ext = 0x8891;
 
@@ -101,7 +102,7 @@ void KeptState::set_switch(GLenum name, bool on) const {
 std::vector<GLenum> KeptState::switch_names() const {
     std::vector<GLenum> names(own_switches.begin(), own_switches.end());
     names.insert(names.end(), others_switches.begin(), others_switches.end());
-    if (adapter_.compatibility) names.push_back(alpha_test);
+    if (adapter_.compatibility) names.insert(names.end(), {alpha_test, polygon_stipple});
     if (gl_.DepthBoundsEXT != nullptr) names.push_back(depth_bounds_test_ext);
     if (gl_.ActiveStencilFaceEXT != nullptr) names.push_back(stencil_test_two_side_ext);
     return names;
@@ -109,7 +110,11 @@ std::vector<GLenum> KeptState::switch_names() const {
 
 void KeptState::switch_off_the_rest() const {
     for (const GLenum name : others_switches) gl_.Disable(name);
-    if (adapter_.compatibility) gl_.Disable(alpha_test);
+    if (adapter_.compatibility) {
+        gl_.Disable(alpha_test);
+        gl_.Disable(polygon_stipple);
+    }
+    if (gl_.ActiveStencilFaceEXT != nullptr) gl_.Disable(stencil_test_two_side_ext);
 }
 
 void KeptState::keep_drawing() {

@@ -4,6 +4,8 @@
 // that of gnomon's own renderer.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,7 +89,8 @@ std::vector<GuestCase> cases() {
 
 class GuestInGl : public testing::TestWithParam<GuestCase> {};
 
-std::vector<std::vector<std::uint8_t>> masks_of(const GuestCase& c, GlHost& host) {
+std::vector<std::vector<std::uint8_t>> masks_of(const GuestCase& c, GlHost& host,
+                                                const std::function<void()>& after_draw = {}) {
     auto context = must(gl::adopt_current_context([&](const char* n) { return host.find(n); }));
     gpu::Device device(must(gl::create_backend(std::move(context))));
     const auto target = must(device.import_texture({.label = "host",
@@ -104,6 +107,7 @@ std::vector<std::vector<std::uint8_t>> masks_of(const GuestCase& c, GlHost& host
     auto guest = must(shadow_pass::GuestPass::create(device, desc));
 
     host.draw(setting_of(c.row));
+    if (after_draw) after_draw();
     const GlHost::Camera camera = host.camera_of(setting_of(c.row));
     const auto view = must(
         shadows::view_of_host(camera.view_from_world, camera.clip_from_view, host.conventions()));
@@ -124,6 +128,32 @@ TEST_P(GuestInGl, the_mask_in_its_stencil_is_the_truth) {
     if (!context) GTEST_SKIP() << context.error().message;
     GlHost host(std::move(*context), c.way);
     expect_true(c.row, c.options, masks_of(c, host));
+}
+
+// Switches that only compatibility contexts have, all of which would change what is counted.
+TEST(GuestInCompatibilityGl, what_the_host_left_on_is_off_while_it_counts) {
+    const std::string row = "still_life_three_lights";
+    const GuestCase c{.way = {.name = "plain"}, .row = row};
+    auto context = gl::create_osmesa_context();
+    if (!context) GTEST_SKIP() << context.error().message;
+    GlHost host(std::move(*context), c.way);
+    constexpr GLenum polygon_stipple = 0x0B42;
+    constexpr GLenum stencil_test_two_side = 0x8910;
+    const auto is_enabled = reinterpret_cast<decltype(&::glIsEnabled)>(host.find("glIsEnabled"));
+    const auto set_stipple =
+        reinterpret_cast<void(APIENTRY*)(const GLubyte*)>(host.find("glPolygonStipple"));
+    ASSERT_NE(set_stipple, nullptr);
+    const auto leave_on = [&] {
+        const std::array<GLubyte, 128> nothing{};
+        set_stipple(nothing.data());
+        host.gl().Enable(polygon_stipple);
+        host.gl().Enable(stencil_test_two_side);
+        ASSERT_EQ(host.gl().GetError(), GLenum{GL_NO_ERROR});
+    };
+    const auto masks = masks_of(c, host, leave_on);
+    EXPECT_EQ(is_enabled(polygon_stipple), GL_TRUE);
+    EXPECT_EQ(is_enabled(stencil_test_two_side), GL_TRUE);
+    expect_true(row, {}, masks);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, GuestInGl, testing::ValuesIn(cases()), [](const auto& info) {

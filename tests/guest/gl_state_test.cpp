@@ -525,6 +525,22 @@ TEST_F(GuestRefusals, a_pass_is_made_for_the_target_as_it_was_imported) {
         HasSubstr("was freed"));
 }
 
+TEST_F(GuestRefusals, an_error_of_the_hosts_is_not_gnomons) {
+    host_->gl().Enable(0xFFFF);
+    EXPECT_TRUE(
+        device_->create_buffer({.label = "own",
+                                .size = 64,
+                                .usage = gpu::BufferUsage::Vertex | gpu::BufferUsage::CopyDst}));
+}
+
+TEST_F(GuestRefusals, the_debug_callback_stays_the_hosts) {
+    const auto backend = gl::create_backend(
+        must(gl::adopt_current_context([this](const char* n) { return host_->find(n); })),
+        {.debug = true});
+    ASSERT_FALSE(backend);
+    EXPECT_THAT(backend.error().message, HasSubstr("its debug callback is the host's"));
+}
+
 TEST(GuestContext, must_be_there) {
     EXPECT_THAT(gl::adopt_current_context(nullptr).error().message, HasSubstr("(null)"));
     const auto finds_nothing = [](const char*) -> void* { return nullptr; };
