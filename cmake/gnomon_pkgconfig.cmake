@@ -3,6 +3,17 @@
 set(GNOMON_PKGCONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH prefix_from_pkgconfig /${GNOMON_PKGCONFIG_DIR} /)
 string(REGEX REPLACE "/$" "" prefix_from_pkgconfig "${prefix_from_pkgconfig}")
+set(pkgconfig_prefix "\${pcfiledir}/${prefix_from_pkgconfig}")
+# Directories may be absolute: then they are named as they are, and the prefix cannot be found from a file in one of them.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(pkgconfig_prefix "${CMAKE_INSTALL_PREFIX}")
+endif()
+foreach(name IN ITEMS LIBDIR INCLUDEDIR)
+  set(pkgconfig_${name} "\${prefix}/${CMAKE_INSTALL_${name}}")
+  if(IS_ABSOLUTE "${CMAKE_INSTALL_${name}}")
+    set(pkgconfig_${name} "${CMAKE_INSTALL_${name}}")
+  endif()
+endforeach()
 
 set(without_pkgconfig)
 foreach(library IN LISTS GNOMON_LIBRARIES)
@@ -43,9 +54,9 @@ foreach(library IN LISTS GNOMON_LIBRARIES)
   endif()
   list(JOIN requires " " requires)
   file(WRITE ${PROJECT_BINARY_DIR}/package/gnomon-${component}.pc
-"prefix=\${pcfiledir}/${prefix_from_pkgconfig}
-libdir=\${prefix}/${CMAKE_INSTALL_LIBDIR}
-includedir=\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}
+"prefix=${pkgconfig_prefix}
+libdir=${pkgconfig_LIBDIR}
+includedir=${pkgconfig_INCLUDEDIR}
 
 Name: gnomon-${component}
 Description: ${PROJECT_DESCRIPTION} (${component})

@@ -43,7 +43,9 @@ struct HostView {
 /// before the far plane counts as one without); y up or down. Fails with ErrorCode::InvalidInput,
 /// or Unsupported where shadow volumes cannot be right in it, with a sentence that says what to
 /// change: logarithmic depth, an oblique near plane, a view that scales, a direction of depth that
-/// is not what `conventions` say. Cost: some hundred flops.
+/// is not what `conventions` say. The last is noticed in perspective alone: an orthographic
+/// projection whose depth runs the other way is the same as one that looks along the other axis,
+/// so there a wrong `reversed` gives wrong shadows. Cost: some hundred flops.
 [[nodiscard]] Result<HostView> view_of_host(const glm::dmat4& view_from_world,
                                             const glm::dmat4& clip_from_view,
                                             const HostConventions& conventions);
