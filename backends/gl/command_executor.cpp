@@ -236,6 +236,14 @@ void CommandExecutor::operator()(const gpu::cmd::SetScissorRect& command) {
     if (target_->host && target_->host->upper_left) {
         rect.y = target_->height - command.y - command.height;
     }
+    // Several samples are cut exactly on a grid that begins at row 0, and at the other end in a
+    // window's framebuffer. What a guest draws may be cut less, never wrongly.
+    const std::uint32_t grid = adapter_.caps.limits.multisample_scissor_alignment;
+    if (target_->host && target_->target == GL_TEXTURE_2D_MULTISAMPLE && grid > 1 &&
+        (target_->host->upper_left || target_->host->name == 0)) {
+        rect.y = 0;
+        rect.height = target_->height;
+    }
     state_.set_scissor(rect);
 }
 
