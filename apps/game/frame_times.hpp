@@ -9,9 +9,12 @@
 
 namespace gnomon::game {
 
+[[nodiscard]] inline double milliseconds_between(std::chrono::steady_clock::time_point from,
+                                                 std::chrono::steady_clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
 [[nodiscard]] inline double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
+    return milliseconds_between(start, std::chrono::steady_clock::now());
 }
 
 /// Milliseconds of each frame that was drawn.

@@ -21,9 +21,7 @@ public:
 
     Status open(World& world) {
         std::error_code error;
-        if (!options_.folder.empty()) {
-            std::filesystem::create_directories(options_.folder, error);
-        }
+        if (!options_.folder.empty()) std::filesystem::create_directories(options_.folder, error);
         if (error) {
             return fail(ErrorCode::Io, fmt::format("{}: the folder cannot be made: {}.",
                                                    options_.folder.string(), error.message()));

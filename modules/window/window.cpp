@@ -288,4 +288,25 @@ void Window::capture_cursor(bool captured) {
                      captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
 }
 
+Result<std::optional<std::string>> exchange(Window& window, Backend backend,
+                                            const std::function<void()>& let_go,
+                                            const std::function<Status()>& attach) {
+    const Backend before = window.backend();
+    const auto reopen = [&](Backend wanted) {
+        let_go();
+        return window.reopen(wanted);
+    };
+    Status opened = reopen(backend);
+    if (!opened && !window.has_device()) return forward_error(opened);
+    Status attached = attach();
+    if (!attached && attached.error().code != ErrorCode::DeviceLost && window.backend() != before) {
+        // It has windows, but cannot draw this in them.
+        opened = std::exchange(attached, Status());
+        if (const Status back = reopen(before); !back) return forward_error(opened);
+        attached = attach();
+    }
+    if (!attached) return forward_error(attached);
+    return opened ? std::nullopt : std::optional(opened.error().message);
+}
+
 }  // namespace gnomon::window

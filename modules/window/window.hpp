@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -102,5 +103,14 @@ private:
     explicit Window(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
+
+/// Reopens a window on another backend, or after a device was lost on the same one, with all that
+/// draws in it: `let_go` frees what the device before made, `attach` makes it anew. Where the other
+/// backend has no window, or `attach` fails there but for a lost device, the one before takes over
+/// again. Fails where no device is left to go on with; otherwise says why the backend did not
+/// change, or nullopt.
+[[nodiscard]] Result<std::optional<std::string>> exchange(Window& window, Backend backend,
+                                                          const std::function<void()>& let_go,
+                                                          const std::function<Status()>& attach);
 
 }  // namespace gnomon::window

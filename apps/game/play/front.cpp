@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "frame_times.hpp"
 #include "play/hud.hpp"
 
 namespace gnomon::game {
@@ -26,10 +27,6 @@ constexpr double ready_s = 0.0015;
 /// How long the end of a recording stands, at its speed.
 constexpr double end_stands_s = 2.0;
 constexpr double backdrop_after_s = 0.35;
-
-double ms_between(FrameClock::time_point from, FrameClock::time_point to) {
-    return std::chrono::duration<double, std::milli>(to - from).count();
-}
 
 }  // namespace
 
@@ -206,7 +203,7 @@ Status Front::simulate(const input::Input& input, double dt_s) {
         if (ended_ || screens_.now() != before) break;
         if (captures && picture_due_) break;
     }
-    rules_ms_ = ms_between(begin, FrameClock::now());
+    rules_ms_ = milliseconds_since(begin);
     return {};
 }
 
@@ -268,10 +265,10 @@ Status Front::draw(const input::Input& input, double dt_s) {
     panel_.shadows = drawing_->shadow_stats();
     const double shadows_ms = panel_.shadows.detect_ms + panel_.shadows.build_ms;
     const auto number = [](double ms) { return static_cast<float>(std::max(ms, 0.0)); };
-    panel_.add_times(
-        {number(rules_ms_), number(shadows_ms), number(ms_between(begin, drawn) - shadows_ms),
-         number(ms_between(drawn, FrameClock::now()))},
-        number(dt_s * 1e3));
+    panel_.add_times({number(rules_ms_), number(shadows_ms),
+                      number(milliseconds_between(begin, drawn) - shadows_ms),
+                      number(milliseconds_since(drawn))},
+                     number(dt_s * 1e3));
     return shown;
 }
 
@@ -330,7 +327,7 @@ Status Front::run() {
             before = now;
             continue;
         }
-        const double dt_s = ms_between(before, now) * 1e-3;
+        const double dt_s = milliseconds_between(before, now) * 1e-3;
         const bool by_clock = !script_ && !options_.frames;
         const double rest_s = until_due_s() - ready_s - dt_s;
         if (by_clock && rest_s > 0.0 && !live.anything_happened()) {

@@ -101,28 +101,17 @@ Status Front::attach() {
 // Fails where no device is left to go on with. Otherwise the game goes on: on the backend before
 // where the other one cannot take over, and the note says why.
 Status Front::exchange(window::Backend backend) {
-    const window::Backend before = window_.backend();
-    const auto reopen = [&](window::Backend wanted) {
+    const auto let_go = [&] {
         drawing_.reset();
         ui_pass_.reset();
         has_drawn_ = false;
-        return window_.reopen(wanted);
     };
-    Status opened = reopen(backend);
-    if (!opened && !window_.has_device()) return opened;
-    Status attached = attach();
-    if (!attached && attached.error().code != ErrorCode::DeviceLost &&
-        window_.backend() != before) {
-        // It has windows, but cannot draw this level in them.
-        opened = std::exchange(attached, Status());
-        if (const Status back = reopen(before); !back) return opened;
-        attached = attach();
-    }
-    if (!attached) return attached;
+    const auto exchanged = window::exchange(window_, backend, let_go, [&] { return attach(); });
+    if (!exchanged) return forward_error(exchanged);
     panel_.cpu_times.clear();
     panel_.frame_lengths.clear();
     skipped_motions_ = 3;
-    say(opened ? panel_.adapter : opened.error().message);
+    say(exchanged->value_or(panel_.adapter));
     return {};
 }
 

@@ -119,26 +119,15 @@ Status Viewer::attach() {
 // Fails where no device is left to go on with. Otherwise window_.backend() says whose it is: the
 // one before where this one cannot take over, and the note says why.
 Status Viewer::exchange(window::Backend backend) {
-    const window::Backend before = window_.backend();
-    const auto reopen = [&](window::Backend wanted) {
+    const auto let_go = [&] {
         stage_.drop_device();
         ui_pass_.reset();
-        return window_.reopen(wanted);
     };
-    Status opened = reopen(backend);
-    if (!opened && !window_.has_device()) return opened;
-    Status attached = attach();
-    if (!attached && attached.error().code != ErrorCode::DeviceLost &&
-        window_.backend() != before) {
-        // It has windows, but cannot draw this scene in them.
-        opened = std::exchange(attached, Status());
-        if (const Status back = reopen(before); !back) return opened;
-        attached = attach();
-    }
-    if (!attached) return attached;
+    const auto exchanged = window::exchange(window_, backend, let_go, [&] { return attach(); });
+    if (!exchanged) return forward_error(exchanged);
     state_.shadow_times.clear();
     state_.frame_times.clear();
-    state_.say(opened ? state_.adapter : one_line(opened.error().message));
+    state_.say(*exchanged ? one_line(**exchanged) : state_.adapter);
     return {};
 }
 
