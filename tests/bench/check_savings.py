@@ -48,3 +48,5 @@ with tempfile.TemporaryDirectory() as folder:
     require(text != original and kept(text) == kept(original), "and changes its own tables alone")
     fill = text.split("<!-- table: savings-fill -->")[1].split("<!-- end of table -->")[0]
     require(fill.strip().splitlines()[0].endswith("| without all | with slabs |"), "slabs have a column of their own")
+    frames = text.split("<!-- table: savings-frames -->")[1].split("<!-- end of table -->")[0].strip().splitlines()
+    require(len(frames) == 3 and frames[2].startswith("| room |") and "×" in frames[2], "the room's frames are timed")
