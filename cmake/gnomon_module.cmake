@@ -10,7 +10,9 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
   find_program(GNOMON_CCACHE ccache)
   if(GNOMON_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${GNOMON_CCACHE})
+    # The same file is one file in whatever clone it is compiled; and what includes a precompiled header is kept as well.
+    set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${GNOMON_CCACHE})
   endif()
 endif()
 

@@ -9,6 +9,7 @@
 
 #include "tests/cli/program.hpp"
 #include "tests/scene/gltf_builder.hpp"
+#include "tests/support/paths.hpp"
 
 namespace gnomon::cli::test {
 namespace {
@@ -161,8 +162,7 @@ TEST_F(BadInput, flat_huge_and_tiny_models_are_drawn_or_refused) {
 
 // What others have found to break readers: only where the machine has it.
 TEST_F(BadInput, hard_models_end_in_0_or_2) {
-    const std::filesystem::path models =
-        std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/models/hard";
+    const std::filesystem::path models = gnomon::test::models_folder() / "hard";
     if (!std::filesystem::exists(models)) GTEST_SKIP() << models << " is not here";
     std::size_t seen = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(models)) {

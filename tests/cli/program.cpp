@@ -12,6 +12,7 @@
 
 #include "devices.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/support/paths.hpp"
 
 namespace gnomon::cli::test {
 
@@ -42,7 +43,7 @@ std::size_t Mask::covered() const {
 
 void ProgramTest::SetUp() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(GNOMON_TEST_OUTPUT) / "cli" /
+    folder_ = gnomon::test::output_folder() / "cli" /
               (std::string(info->test_suite_name()) + "." + info->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "files");

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.hpp"
+
 namespace gnomon::game {
 namespace {
 
@@ -46,7 +48,7 @@ Said say(std::vector<std::string> arguments) {
 }
 
 std::filesystem::path output(const char* name) {
-    const std::filesystem::path folder = std::filesystem::path(GNOMON_TEST_OUTPUT) / "game";
+    const std::filesystem::path folder = test::output_folder() / "game";
     std::filesystem::create_directories(folder);
     return folder / name;
 }

@@ -14,6 +14,7 @@
 
 #include "assets.hpp"
 #include "recording.hpp"
+#include "tests/support/paths.hpp"
 #include "world.hpp"
 
 namespace gnomon::game {
@@ -287,7 +288,7 @@ TEST(Level, a_name_that_is_not_there_is_answered_with_those_that_are) {
 }
 
 TEST(Level, names_are_those_that_recordings_can_hold) {
-    const auto assets = std::filesystem::path(GNOMON_TEST_OUTPUT) / "game" / "named";
+    const auto assets = test::output_folder() / "game" / "named";
     std::filesystem::remove_all(assets);
     std::filesystem::create_directories(assets / "levels");
     for (const char* name :

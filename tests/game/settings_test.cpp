@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 
+#include "tests/support/paths.hpp"
+
 namespace gnomon::game {
 namespace {
 
@@ -28,8 +30,7 @@ Settings unusual() {
 }
 
 std::filesystem::path fresh_folder(const char* name) {
-    std::filesystem::path folder =
-        std::filesystem::path(GNOMON_TEST_OUTPUT) / "game_settings" / name;
+    std::filesystem::path folder = test::output_folder() / "game_settings" / name;
     std::filesystem::remove_all(folder);
     return folder;
 }

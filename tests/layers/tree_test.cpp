@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/layers/rules.hpp"
+#include "tests/support/paths.hpp"
 
 namespace gnomon::layers {
 namespace {
@@ -15,7 +16,7 @@ using testing::IsEmpty;
 
 class Repository : public testing::Test {
 protected:
-    static void SetUpTestSuite() { tree_ = read_tree(GNOMON_SOURCE_DIR); }
+    static void SetUpTestSuite() { tree_ = read_tree(test::source_folder()); }
     static std::vector<SourceFile> tree_;
 };
 std::vector<SourceFile> Repository::tree_;

@@ -7,6 +7,8 @@
 
 #include <gnomon/scene/shadow_adapter.hpp>
 
+#include "tests/support/paths.hpp"
+
 namespace gnomon::test {
 
 namespace {
@@ -111,7 +113,7 @@ std::size_t differing_bytes(std::span<const std::uint8_t> a, std::span<const std
 std::string save_difference(const std::string& name, std::uint32_t width, std::uint32_t height,
                             std::span<const std::uint8_t> actual,
                             std::span<const std::uint8_t> expected) {
-    const std::filesystem::path folder = GNOMON_TEST_OUTPUT;
+    const std::filesystem::path folder = output_folder();
     std::filesystem::create_directories(folder);
     std::vector<std::uint8_t> difference(actual.size());
     for (std::size_t i = 0; i < std::min(actual.size(), expected.size()); ++i) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/scene/gltf_builder.hpp"
+#include "tests/support/paths.hpp"
 
 namespace gnomon::scene::test {
 namespace {
@@ -22,7 +23,7 @@ class GltfFolder : public testing::Test {
 protected:
     void SetUp() override {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(GNOMON_TEST_OUTPUT) / "scene" / info->name();
+        folder_ = gnomon::test::output_folder() / "scene" / info->name();
         fs::remove_all(folder_);
         fs::create_directories(folder_ / "inner");
     }

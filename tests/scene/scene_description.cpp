@@ -9,6 +9,7 @@
 #include <gnomon/scene/scene_description.hpp>
 
 #include "tests/scene/gltf_builder.hpp"
+#include "tests/support/paths.hpp"
 
 namespace gnomon::scene::test {
 namespace {
@@ -20,7 +21,7 @@ class SceneDescription : public testing::Test {
 protected:
     void SetUp() override {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(GNOMON_TEST_OUTPUT) / "scene" / info->name();
+        folder_ = gnomon::test::output_folder() / "scene" / info->name();
         fs::remove_all(folder_);
         fs::create_directories(folder_);
         // A file whose lowest vertex is at -0.25, with a material and a child.
@@ -50,7 +51,7 @@ glm::dvec3 world_point(const Scene& scene, Entity entity, const glm::dvec3& loca
 }
 
 std::string example_of_the_docs() {
-    std::ifstream stream(fs::path(GNOMON_SOURCE_DIR) / "docs" / "scene-description.md");
+    std::ifstream stream(gnomon::test::source_folder() / "docs" / "scene-description.md");
     std::stringstream text;
     text << stream.rdbuf();
     const std::string page = text.str();

@@ -5,7 +5,6 @@
 // ../shared/models beside the source tree; skipped where there are none.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -16,15 +15,10 @@
 #include <gnomon/shadows/facing.hpp>
 
 #include "tests/shadows/random_meshes.hpp"
+#include "tests/support/paths.hpp"
 
 namespace gnomon::shadows {
 namespace {
-
-std::filesystem::path models_folder() {
-    const char* folder = std::getenv("GNOMON_MODELS");
-    return folder != nullptr ? std::filesystem::path(folder)
-                             : std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/models";
-}
 
 struct Share {
     std::uint64_t faces = 0;
@@ -77,8 +71,8 @@ void measure(const test::Triangles& triangles, double offset, test::Random& rand
 }
 
 TEST(FacingStages, SinglePrecisionIsEnoughForNearlyAllFacesOfRealModels) {
-    if (!std::filesystem::exists(models_folder())) {
-        GTEST_SKIP() << "no models in " << models_folder();
+    if (!std::filesystem::exists(gnomon::test::models_folder())) {
+        GTEST_SKIP() << "no models in " << gnomon::test::models_folder();
     }
     GNOMON_RANDOM(random);
     std::printf(
@@ -88,7 +82,7 @@ TEST(FacingStages, SinglePrecisionIsEnoughForNearlyAllFacesOfRealModels) {
          {"large/bunny-144k.glb", "props/flight-helmet.glb", "scenes/linz-old-town.glb",
           "scenes/dream-apartment.glb", "scenes/tall-building.glb", "hard/hard-degenerates.glb",
           "hard/hard-needle.glb"}) {
-        const auto scene = scene::load_gltf(models_folder() / name);
+        const auto scene = scene::load_gltf(gnomon::test::models_folder() / name);
         if (!scene) {
             std::printf("%s\n", scene.error().message.c_str());
             continue;

@@ -11,6 +11,8 @@
 
 #include <gnomon/sun/position.hpp>
 
+#include "tests/support/paths.hpp"
+
 namespace gnomon::sun {
 namespace {
 
@@ -43,7 +45,7 @@ struct Row {
 };
 
 std::vector<Row> table() {
-    std::ifstream file(GNOMON_SOURCE_DIR "/tests/sun/data/sun_positions.csv");
+    std::ifstream file(test::source_folder() / "tests/sun/data/sun_positions.csv");
     std::vector<Row> rows;
     std::string line;
     std::getline(file, line);

@@ -2,7 +2,6 @@
 #include "tests/support/models.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <vector>
@@ -27,11 +26,6 @@ std::vector<std::string> cells_of(const std::string& row) {
 }
 
 }  // namespace
-
-fs::path models_folder() {
-    if (const char* set = std::getenv("GNOMON_MODELS")) return set;
-    return fs::path(GNOMON_SOURCE_DIR) / ".." / "shared" / "models";
-}
 
 std::map<std::string, fs::path> model_files() {
     std::map<std::string, fs::path> files;

@@ -8,12 +8,11 @@
 #include <map>
 #include <string>
 
+#include "tests/support/paths.hpp"
+
 namespace gnomon::test {
 
-/// $GNOMON_MODELS, else ../shared/models beside the source tree.
-[[nodiscard]] std::filesystem::path models_folder();
-
-/// All files of the folder that end in .glb, by name.
+/// All files of models_folder() that end in .glb, by name.
 [[nodiscard]] std::map<std::string, std::filesystem::path> model_files();
 
 /// The rows of MANIFEST.md's tables of figures: by file name, then by the heading of the column.

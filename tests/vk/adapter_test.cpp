@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "tests/support/paths.hpp"
 #include "tests/vk/fixture.hpp"
 
 namespace gnomon::vk_test {
@@ -27,11 +28,11 @@ protected:
 /// Sets an environment variable for as long as it lives.
 class ScopedVariable {
 public:
-    ScopedVariable(const char* name, const char* value) : name_(name) {
+    ScopedVariable(const char* name, const std::string& value) : name_(name) {
         if (const char* before = std::getenv(name)) {
             before_ = before;
         }
-        setenv(name, value, 1);
+        setenv(name, value.c_str(), 1);
     }
     ~ScopedVariable() {
         if (before_) {
@@ -152,7 +153,7 @@ TEST_F(Adapter, HasNothingToPresentOnWithoutAWindow) {
 
 TEST(Instance, WithoutTheValidationLayerSaysSo) {
     // The loader looks for explicit layers in this folder alone.
-    const ScopedVariable folder{"VK_LAYER_PATH", GNOMON_SOURCE_DIR "/tests/vk/shaders"};
+    const ScopedVariable folder{"VK_LAYER_PATH", test::source_folder() / "tests/vk/shaders"};
     const auto backend = vk::create_backend({.validation = true});
     ASSERT_FALSE(backend);
     EXPECT_EQ(backend.error().code, ErrorCode::Unsupported);
@@ -162,8 +163,8 @@ TEST(Instance, WithoutTheValidationLayerSaysSo) {
 
 TEST(Instance, WithoutADriverSaysSo) {
     // By both of its names: the newer one wins where it is set.
-    const ScopedVariable driver{"VK_ICD_FILENAMES", GNOMON_SOURCE_DIR "/no_driver.json"};
-    const ScopedVariable newer{"VK_DRIVER_FILES", GNOMON_SOURCE_DIR "/no_driver.json"};
+    const ScopedVariable driver{"VK_ICD_FILENAMES", test::source_folder() / "no_driver.json"};
+    const ScopedVariable newer{"VK_DRIVER_FILES", test::source_folder() / "no_driver.json"};
     const auto backend = vk::create_backend();
     ASSERT_FALSE(backend);
     EXPECT_EQ(backend.error().code, ErrorCode::Unsupported);
