@@ -30,11 +30,14 @@ namespace {
 /// was.
 class Session {
 public:
-    Session(Context& context, const Adapter& adapter, KeptScope scope, KeptState::Bound bound)
+    /// `asks`: for errors, before it ends.
+    Session(Context& context, const Adapter& adapter, KeptScope scope, KeptState::Bound bound,
+            bool asks)
         : gl_(adapter.gl), status_(context.make_current()) {
-        if (!status_ || !context.restores_state()) return;
-        drop_errors(gl_);  // of the host's, which would be taken for ours
-        kept_.emplace(adapter, scope, bound);
+        if (!status_) return;
+        // Those of the host's would be taken for ours.
+        if (context.is_adopted() && asks) drop_errors(gl_);
+        if (context.restores_state()) kept_.emplace(adapter, scope, bound);
     }
     ~Session() {
         if (status_) gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -59,7 +62,7 @@ public:
     }
 
     ~GlBackend() override {
-        const Session session = open(KeptScope::Bindings);
+        const Session session = open(KeptScope::Bindings, false);
         if (!session.status()) return;  // the objects went with the context
         if (adapter_.debug) uninstall_debug_output(gl_);
         framebuffers_.clear(gl_);
@@ -95,6 +98,12 @@ public:
         return create(
             objects_.textures, id, [&] { return import_host_target(adapter_, desc, *host); },
             KeptScope::Everything);
+    }
+    [[nodiscard]] gpu::ClipDepth clip_depth(gpu::TextureId id) const override {
+        const TextureObject& texture = objects_.textures[id];
+        return texture.host && texture.host->clip_depth == GL_NEGATIVE_ONE_TO_ONE
+                   ? gpu::ClipDepth::MinusOneToOne
+                   : gpu::ClipDepth::ZeroToOne;
     }
     Status create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& desc) override {
         return create(objects_.samplers, id, [&] { return make_sampler(adapter_, desc); });
@@ -142,32 +151,32 @@ public:
 
     Status write_buffer(gpu::BufferId id, std::uint64_t offset,
                         std::span<const std::byte> data) override {
-        const Session session = open(KeptScope::Bindings);
+        const Session session = open(KeptScope::Bindings, asks_always());
         if (!session.status()) return session.status();
         gl_.BindBuffer(GL_COPY_WRITE_BUFFER, objects_.buffers[id].name);
         gl_.BufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset),
                           static_cast<GLsizeiptr>(data.size()), data.data());
-        return check_if_debug("Writing to a buffer");
+        return check_if_asked("Writing to a buffer");
     }
     Status write_texture(gpu::TextureId id, std::uint32_t mip_level,
                          std::span<const std::byte> data) override {
-        const Session session = open(KeptScope::Everything);
+        const Session session = open(KeptScope::Everything, asks_always());
         if (!session.status()) return session.status();
         const TextureObject& texture = objects_.textures[id];
         upload(gl_, texture, mip_level, data);
-        return check_if_debug(
+        return check_if_asked(
             fmt::format("Writing mip level {} of [Texture \"{}\"]", mip_level, texture.label));
     }
 
     Status submit(const gpu::CommandBuffer& commands) override {
-        const Session session = open(KeptScope::Everything);
+        const Session session = open(KeptScope::Everything, asks_always());
         if (!session.status()) return session.status();
         GLint provoking_vertex = GL_LAST_VERTEX_CONVENTION;
         if (imported_any_) gl_.GetIntegerv(GL_PROVOKING_VERTEX, &provoking_vertex);
         CommandExecutor executor(adapter_, objects_, framebuffers_,
                                  {vertex_array_, static_cast<GLenum>(provoking_vertex)}, commands);
         if (Status run = executor.run(); !run) return run;
-        return check_if_debug(fmt::format("Submitting [CommandBuffer \"{}\"]", commands.label));
+        return check_if_asked(fmt::format("Submitting [CommandBuffer \"{}\"]", commands.label));
     }
     Status wait_idle() override {
         const Session session = open(KeptScope::Bindings);
@@ -212,8 +221,8 @@ public:
     }
 
 private:
-    [[nodiscard]] Session open(KeptScope scope) const {
-        return Session(*context_, adapter_, scope, bound_);
+    [[nodiscard]] Session open(KeptScope scope, bool asks = true) const {
+        return Session(*context_, adapter_, scope, bound_, asks);
     }
 
     template <class Tag, class Object, class Make>
@@ -230,7 +239,7 @@ private:
     template <class Tag, class Object>
     void take_and_free(Table<Tag, Object>& table, gpu::Id<Tag> id) {
         if (auto object = table.take(id)) {
-            const Session session = open(KeptScope::Bindings);
+            const Session session = open(KeptScope::Bindings, false);
             if (session.status()) free(*object);
         }
     }
@@ -244,10 +253,12 @@ private:
         gl_.DeleteQueries(static_cast<GLsizei>(set.names.size()), set.names.data());
     }
 
-    /// Asking GL for errors can make a threaded driver wait, so only creation, reading and waiting
-    /// always do; an error of a write or a submission shows there at the latest.
-    [[nodiscard]] Status check_if_debug(const std::string& action) const {
-        return adapter_.debug ? check_errors(gl_, action) : Status{};
+    /// Asking GL for errors can make a threaded driver wait, so not all calls do, but for debugging
+    /// and where state is asked for anyway. Creation, reading and waiting always do; an error of a
+    /// write or a submission shows there at the latest, unless a host lives in the same context.
+    [[nodiscard]] bool asks_always() const { return adapter_.debug || context_->restores_state(); }
+    [[nodiscard]] Status check_if_asked(const std::string& action) const {
+        return asks_always() ? check_errors(gl_, action) : Status{};
     }
 
     std::unique_ptr<Context> context_;

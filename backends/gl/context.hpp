@@ -74,8 +74,10 @@ enum class HostState : std::uint8_t {
 /// The context that is current on this thread, of any platform, core or compatibility profile. It
 /// stays the host's, who has it current whenever the backend or an object of its device is used,
 /// destroyed or freed, and keeps it for as long. While gnomon is called no query, conditional
-/// rendering or transform feedback is under way, no program is current that was deleted, and errors
-/// that were not asked for (glGetError) are lost.
+/// rendering or transform feedback is under way and no program is current that was deleted. Errors
+/// of the host's that it has not asked for (glGetError) are lost, never taken for gnomon's; with
+/// HostState::Defaults those before a submission or a write stay, which asks for no errors, its own
+/// neither, so that nothing waits.
 [[nodiscard]] Result<std::unique_ptr<Context>> adopt_current_context(
     GetProcAddress get_proc_address, HostState state = HostState::Restored);
 

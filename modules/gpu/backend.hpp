@@ -37,6 +37,8 @@ public:
                                                 "\"] cannot be imported: this backend (" +
                                                 caps().backend + ") adopts no textures.");
     }
+    /// In which clip space what is drawn into the texture lies.
+    [[nodiscard]] virtual ClipDepth clip_depth(TextureId) const { return ClipDepth::ZeroToOne; }
     virtual Status create_sampler(SamplerId, const SamplerDesc&) = 0;
     virtual Status create_shader(ShaderId, const ShaderDesc&) = 0;
     virtual Status create_bind_group_layout(BindGroupLayoutId, const BindGroupLayoutDesc&) = 0;

@@ -167,6 +167,11 @@ std::optional<TextureDesc> Device::desc_of(TextureId texture) const {
     return desc != nullptr ? std::optional(*desc) : std::nullopt;
 }
 
+ClipDepth Device::clip_depth_of(TextureId texture) const {
+    GNOMON_EXPECTS(state_->find(texture) != nullptr);
+    return state_->backend().clip_depth(texture);
+}
+
 const Caps& Device::caps() const { return state_->caps(); }
 
 DeviceCounters Device::counters() const {

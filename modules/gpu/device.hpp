@@ -86,6 +86,9 @@ public:
 
     /// What a texture was made or imported as; nothing where it is gone or never was.
     [[nodiscard]] std::optional<TextureDesc> desc_of(TextureId texture) const;
+    /// In which clip space what is drawn into a texture lies: ZeroToOne but where a host's was
+    /// imported that is drawn to otherwise. The texture is alive.
+    [[nodiscard]] ClipDepth clip_depth_of(TextureId texture) const;
     [[nodiscard]] const Caps& caps() const;
     [[nodiscard]] DeviceCounters counters() const;
 

@@ -80,6 +80,12 @@ enum class StencilOp : std::uint8_t {
     DecrementWrap,
 };
 
+/// What of clip space is drawn, in z / w.
+enum class ClipDepth : std::uint8_t {
+    ZeroToOne,      ///< into every texture of a device's own
+    MinusOneToOne,  ///< into what a host draws into by OpenGL's own convention
+};
+
 enum class PrimitiveTopology : std::uint8_t { PointList, LineList, TriangleList };
 enum class FrontFace : std::uint8_t { Ccw, Cw };
 enum class CullMode : std::uint8_t { None, Front, Back };

@@ -31,7 +31,7 @@ struct GuestPassDesc {
     TargetSize size = {};        ///< of the target, as it was imported
     gpu::Format format = gpu::Format::Depth24UnormStencil8;  ///< of the target
     std::uint32_t sample_count = 1;
-    shadows::HostConventions conventions = {};  ///< depth is ZeroToOne on Vulkan
+    shadows::HostConventions conventions = {};  ///< depth as the target is drawn to
     /// For depth that came from shaders of the host's own. None only where they compute positions
     /// by gnomon's function, from a matrix multiplied as it is here (docs/conventions.md, "One
     /// position function").
@@ -42,8 +42,9 @@ class GuestPass {
 public:
     /// The device must outlive the pass. Fails as ShadowPass::create() does, with
     /// ErrorCode::InvalidInput where there is no target, where its size, format or samples are not
-    /// those that it was imported with, or where depth begins at -1 on Vulkan, and with Unsupported
-    /// for logarithmic depth.
+    /// those that it was imported with, or HostConventions::depth is not Device::clip_depth_of() it
+    /// (on OpenGL what glClipControl() said then, on Vulkan always from 0 to 1), and with
+    /// Unsupported for logarithmic depth.
     [[nodiscard]] static Result<GuestPass> create(gpu::Device& device, const GuestPassDesc& desc);
     GuestPass(GuestPass&&) noexcept;
     GuestPass& operator=(GuestPass&&) noexcept;
