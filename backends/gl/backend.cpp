@@ -95,9 +95,13 @@ public:
                                     desc.label));
         }
         imported_any_ = true;
-        return create(
-            objects_.textures, id, [&] { return import_host_target(adapter_, desc, *host); },
-            KeptScope::Everything);
+        const auto import = [&] {
+            auto texture = import_host_target(adapter_, desc, *host);
+            // Hosts' names are handed out again as well.
+            if (texture) forget_framebuffers(gl_, framebuffers_, *texture);
+            return texture;
+        };
+        return create(objects_.textures, id, import, KeptScope::Everything);
     }
     [[nodiscard]] gpu::ClipDepth clip_depth(gpu::TextureId id) const override {
         const TextureObject& texture = objects_.textures[id];

@@ -70,7 +70,7 @@ Status CommandExecutor::bind_attachments(const gpu::RenderPassDesc& pass) {
         depth_stencil_format = any->format;
     }
     target_ = any;
-    Status bound = any->host ? bind_host(pass, *any->host)
+    Status bound = any->host ? bind_host(pass, key, *any)
                              : framebuffers_.bind(gl_, key, any->target, depth_stencil_format,
                                                   fmt::format("[RenderPass \"{}\"]", pass.label));
     if (!bound) return bound;
@@ -84,14 +84,25 @@ Status CommandExecutor::bind_attachments(const gpu::RenderPassDesc& pass) {
     return {};
 }
 
-Status CommandExecutor::bind_host(const gpu::RenderPassDesc& pass, const HostFramebuffer& host) {
-    if (!pass.color_attachments.empty()) {
-        return fail(ErrorCode::Unsupported,
-                    fmt::format("[RenderPass \"{}\"] has colour attachments beside a depth-stencil "
-                                "that was imported, which is drawn to alone.",
-                                pass.label));
+Status CommandExecutor::bind_host(const gpu::RenderPassDesc& pass, FramebufferKey key,
+                                  const TextureObject& texture) {
+    const HostFramebuffer& host = *texture.host;
+    if (key.colors.empty()) {
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, host.name);
+    } else if (host.attached) {
+        key.host = *host.attached;
+        const Status bound = framebuffers_.bind(gl_, key, texture.target, texture.format,
+                                                fmt::format("[RenderPass \"{}\"]", pass.label));
+        if (!bound) return bound;
+    } else {
+        return fail(
+            ErrorCode::Unsupported,
+            fmt::format("[RenderPass \"{}\"] has colour attachments beside [Texture "
+                        "\"{}\"], the depth and stencil of a framebuffer that has them in "
+                        "no 2D texture or renderbuffer of the host's, such as the window's: "
+                        "draw the scene into a framebuffer that has.",
+                        pass.label, texture.label));
     }
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, host.name);
     gl_.ClipControl(host.upper_left ? GL_UPPER_LEFT : GL_LOWER_LEFT, host.clip_depth);
     gl_.ProvokingVertex(host_provoking_vertex_);
     return {};
@@ -163,12 +174,12 @@ void CommandExecutor::discard_attachments(const gpu::RenderPassDesc& pass) {
     std::vector<GLenum> discarded;
     for (std::size_t i = 0; i < pass.color_attachments.size(); ++i) {
         const gpu::ColorAttachment& attachment = pass.color_attachments[i];
-        // What is resolved is read once more, below.
-        if (attachment.store_op == gpu::StoreOp::Discard && !attachment.resolve_target) {
+        // What is resolved is read once more, below. What is the host's is not ours to discard.
+        if (attachment.store_op == gpu::StoreOp::Discard && !attachment.resolve_target &&
+            !objects_.textures[attachment.texture].borrowed) {
             discarded.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
         }
     }
-    // What is the host's is not ours to discard.
     if (pass.depth_stencil && !objects_.textures[pass.depth_stencil->texture].host) {
         const gpu::DepthStencilAttachment& attachment = *pass.depth_stencil;
         if (attachment.depth_store_op == gpu::StoreOp::Discard) {

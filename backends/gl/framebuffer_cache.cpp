@@ -9,7 +9,8 @@ namespace gnomon::gl {
 namespace {
 
 FramebufferKey key_of(const TextureObject& texture, GLint level) {
-    FramebufferKey key{.colors = {}, .depth_stencil = 0, .level = level};
+    FramebufferKey key;
+    key.level = level;
     if (gpu::has_color(texture.format)) {
         key.colors = {texture.name};
     } else {
@@ -40,6 +41,13 @@ Result<GLuint> FramebufferCache::find_or_make(const GlFunctions& gl, const Frame
     if (key.depth_stencil != 0) {
         gl.FramebufferTexture2D(GL_FRAMEBUFFER, depth_stencil_attachment(depth_stencil_format),
                                 target, key.depth_stencil, key.level);
+    }
+    if (key.host.renderbuffer != 0) {
+        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                                   key.host.renderbuffer);
+    } else if (key.host.texture != 0) {
+        gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, target,
+                                key.host.texture, key.host.level);
     }
     if (draw_buffers.empty()) draw_buffers.push_back(GL_NONE);
     gl.DrawBuffers(static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
@@ -81,19 +89,27 @@ Status FramebufferCache::bind_for_reading(const GlFunctions& gl, const TextureOb
     return {};
 }
 
-void FramebufferCache::forget_texture(const GlFunctions& gl, GLuint texture) {
+template <class Predicate>
+void FramebufferCache::forget(const GlFunctions& gl, const Predicate& uses_it) {
     for (auto entry = framebuffers_.begin(); entry != framebuffers_.end();) {
-        const FramebufferKey& key = entry->first;
-        const bool uses_it =
-            key.depth_stencil == texture ||
-            std::find(key.colors.begin(), key.colors.end(), texture) != key.colors.end();
-        if (uses_it) {
+        if (uses_it(entry->first)) {
             gl.DeleteFramebuffers(1, &entry->second);
             entry = framebuffers_.erase(entry);
         } else {
             ++entry;
         }
     }
+}
+
+void FramebufferCache::forget_texture(const GlFunctions& gl, GLuint texture) {
+    forget(gl, [texture](const FramebufferKey& key) {
+        return key.depth_stencil == texture ||
+               std::find(key.colors.begin(), key.colors.end(), texture) != key.colors.end();
+    });
+}
+
+void FramebufferCache::forget_host(const GlFunctions& gl, const HostDepthStencil& host) {
+    forget(gl, [&host](const FramebufferKey& key) { return key.host == host; });
 }
 
 void FramebufferCache::clear(const GlFunctions& gl) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "internal/conv.hpp"
 #include "internal/debug_output.hpp"
 
 namespace gnomon::gl {
@@ -60,33 +61,45 @@ GLint attachment_value(const GlFunctions& gl, GLenum attachment, GLenum what) {
     return value;
 }
 
-// Of what a framebuffer object has for depth, which is bound afterwards. Left alone where it cannot
-// be asked by these targets.
-void measure(const GlFunctions& gl, GLenum target, Size& size) {
-    const auto ask = [&](GLenum what) {
-        GLint value = 0;
-        gl.GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, what,
-                                               &value);
-        return value;
-    };
-    const GLint type = ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE);
-    const auto name = static_cast<GLuint>(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
+GLint ask_attachment(const GlFunctions& gl, GLenum attachment, GLenum what) {
+    GLint value = 0;
+    gl.GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, what, &value);
+    return value;
+}
+
+// What a framebuffer object has for depth and its size; the former is bound afterwards. Left alone
+// where it cannot be asked by these targets.
+void look_at(const GlFunctions& gl, GLenum target, Size& size, HostFramebuffer& host) {
+    const GLint type =
+        ask_attachment(gl, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE);
+    const GLint object =
+        ask_attachment(gl, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME);
+    const auto name = static_cast<GLuint>(object);
+    HostDepthStencil attached;
     Size measured;
     if (type == GL_RENDERBUFFER) {
+        attached.renderbuffer = name;
         gl.BindRenderbuffer(GL_RENDERBUFFER, name);
         gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_WIDTH, &measured.width);
         gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_HEIGHT, &measured.height);
     } else if (type == GL_TEXTURE) {
-        const GLint level = ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL);
+        attached.texture = name;
+        attached.level =
+            ask_attachment(gl, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL);
         drop_errors(gl);
         gl.BindTexture(target, name);
         if (gl.GetError() != GL_NO_ERROR) return;  // of another target
-        gl.GetTexLevelParameteriv(target, level, GL_TEXTURE_WIDTH, &measured.width);
-        gl.GetTexLevelParameteriv(target, level, GL_TEXTURE_HEIGHT, &measured.height);
+        gl.GetTexLevelParameteriv(target, attached.level, GL_TEXTURE_WIDTH, &measured.width);
+        gl.GetTexLevelParameteriv(target, attached.level, GL_TEXTURE_HEIGHT, &measured.height);
     } else {
         return;
     }
     size = measured;
+    if (ask_attachment(gl, GL_STENCIL_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == type &&
+        ask_attachment(gl, GL_STENCIL_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME) ==
+            object) {
+        host.attached = attached;
+    }
 }
 
 // What glClipControl() was told, where the host does not say.
@@ -100,6 +113,14 @@ HostFramebuffer drawn_as(const GlFunctions& gl, const HostTarget& host) {
             .owned = host.kind != HostTarget::Kind::Framebuffer,
             .upper_left = host.clip_upper_left.value_or(origin == GL_UPPER_LEFT),
             .clip_depth = zero_to_one ? GLenum{GL_ZERO_TO_ONE} : GLenum{GL_NEGATIVE_ONE_TO_ONE}};
+}
+
+Status check_samples(const gpu::TextureDesc& desc, const HostTarget& host, GLint samples) {
+    samples = samples > 1 ? samples : 1;
+    if (static_cast<std::uint32_t>(samples) == desc.sample_count) return {};
+    return fail(ErrorCode::InvalidInput,
+                fmt::format("{} has {} samples a pixel, not {}.", name_of(desc, host), samples,
+                            desc.sample_count));
 }
 
 // The framebuffer is bound.
@@ -135,73 +156,130 @@ Status check_bits(const GlFunctions& gl, const gpu::TextureDesc& desc, const Hos
     }
     GLint samples = 0;
     gl.GetIntegerv(GL_SAMPLES, &samples);
-    samples = samples > 1 ? samples : 1;
-    if (static_cast<std::uint32_t>(samples) != desc.sample_count) {
-        return fail(ErrorCode::InvalidInput,
-                    fmt::format("{} has {} samples a pixel, not {}.", name_of(desc, host), samples,
-                                desc.sample_count));
+    return check_samples(desc, host, samples);
+}
+
+TextureObject described(const gpu::TextureDesc& desc) {
+    return {
+        .label = desc.label,
+        .target = desc.sample_count > 1 ? GLenum{GL_TEXTURE_2D_MULTISAMPLE} : GLenum{GL_TEXTURE_2D},
+        .format = desc.format,
+        .width = desc.width,
+        .height = desc.height};
+}
+
+Status check_size(const gpu::TextureDesc& desc, const HostTarget& host, const Size& size) {
+    if (size.width == static_cast<GLint>(desc.width) &&
+        size.height == static_cast<GLint>(desc.height)) {
+        return {};
     }
-    return {};
+    return fail(ErrorCode::InvalidInput,
+                fmt::format("{} has {} x {} pixels, not {} x {}.", name_of(desc, host), size.width,
+                            size.height, desc.width, desc.height));
+}
+
+// The framebuffer is bound.
+Status check_framebuffer(const GlFunctions& gl, const gpu::TextureDesc& desc,
+                         const HostTarget& host, bool is_window) {
+    // Of a framebuffer that is not complete nothing but its attachments can be asked.
+    if (const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
+        status != GL_FRAMEBUFFER_COMPLETE) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("{} cannot be drawn to as depth and stencil (framebuffer status "
+                                "0x{:04X}): complete it first, with depth and stencil of "
+                                "GL_DEPTH24_STENCIL8 or GL_DEPTH32F_STENCIL8.",
+                                name_of(desc, host), status));
+    }
+    return check_bits(gl, desc, host, is_window);
+}
+
+Result<TextureObject> import_depth_stencil(const GlFunctions& gl, const gpu::TextureDesc& desc,
+                                           const HostTarget& host) {
+    TextureObject texture = described(desc);
+    texture.host = drawn_as(gl, host);
+    Size size{static_cast<GLint>(desc.width), static_cast<GLint>(desc.height)};
+    const bool is_framebuffer = host.kind == HostTarget::Kind::Framebuffer;
+    if (is_framebuffer) {
+        gl.BindFramebuffer(GL_FRAMEBUFFER, host.name);
+    } else {
+        texture.host->name = wrap(gl, host, texture.target, size);
+        texture.host->attached = host.kind == HostTarget::Kind::Texture
+                                     ? HostDepthStencil{.texture = host.name}
+                                     : HostDepthStencil{.renderbuffer = host.name};
+    }
+    Status usable = check_errors(gl, fmt::format("Importing {}", name_of(desc, host)));
+    const bool is_window = is_framebuffer && host.name == 0;
+    if (usable) usable = check_framebuffer(gl, desc, host, is_window);
+    if (usable && is_framebuffer && !is_window) look_at(gl, texture.target, size, *texture.host);
+    if (usable) usable = check_size(desc, host, size);
+    if (!usable) {
+        if (texture.host->owned) gl.DeleteFramebuffers(1, &texture.host->name);
+        return forward_error(usable);
+    }
+    return texture;
+}
+
+Result<TextureObject> import_color(const GlFunctions& gl, const gpu::TextureDesc& desc,
+                                   const HostTarget& host) {
+    if (host.kind != HostTarget::Kind::Texture) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("{} cannot be drawn to as colour: give a texture of the host's "
+                                "(HostTarget::Kind::Texture).",
+                                name_of(desc, host)));
+    }
+    if (gl.IsTexture(host.name) == GL_FALSE) {  // which compatibility contexts would make one
+        return fail(ErrorCode::InvalidInput, fmt::format("{} is none.", name_of(desc, host)));
+    }
+    TextureObject texture = described(desc);
+    texture.name = host.name;
+    texture.borrowed = true;
+    gl.BindTexture(texture.target, host.name);
+    const Status bound = check_errors(gl, fmt::format("Importing {} as a 2D texture of {} samples",
+                                                      name_of(desc, host), desc.sample_count));
+    if (!bound) return fail(ErrorCode::InvalidInput, bound.error().message);
+    const auto level = [&](GLenum what) {
+        GLint value = 0;
+        gl.GetTexLevelParameteriv(texture.target, 0, what, &value);
+        return value;
+    };
+    const auto format = static_cast<GLenum>(level(GL_TEXTURE_INTERNAL_FORMAT));
+    if (const GLenum wanted = to_gl(desc.format).internal; format != wanted) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("{} has the internal format 0x{:04X}, not 0x{:04X}, which the "
+                                "format that was said is.",
+                                name_of(desc, host), format, wanted));
+    }
+    const Size size{level(GL_TEXTURE_WIDTH), level(GL_TEXTURE_HEIGHT)};
+    if (const Status fits = check_size(desc, host, size); !fits) return forward_error(fits);
+    if (const Status fits = check_samples(desc, host, level(GL_TEXTURE_SAMPLES)); !fits) {
+        return forward_error(fits);
+    }
+    return texture;
 }
 
 }  // namespace
 
 Result<TextureObject> import_host_target(const Adapter& adapter, const gpu::TextureDesc& desc,
                                          const HostTarget& host) {
-    const GlFunctions& gl = adapter.gl;
-    if (!gpu::has_stencil(desc.format) || desc.usage != gpu::TextureUsage::RenderAttachment) {
+    const bool is_color = gpu::has_color(desc.format);
+    if ((!is_color && !gpu::has_stencil(desc.format)) ||
+        desc.usage != gpu::TextureUsage::RenderAttachment) {
         return fail(ErrorCode::Unsupported,
-                    fmt::format("{} can only be a depth-stencil format, with the usage "
-                                "RenderAttachment and no other.",
+                    fmt::format("{} can only be of a depth-stencil or colour format, with the "
+                                "usage RenderAttachment and no other.",
                                 name_of(desc, host)));
     }
     if (desc.mip_level_count != 1) {
         return fail(ErrorCode::Unsupported, fmt::format("{} can only have 1 mip level, not {}.",
                                                         name_of(desc, host), desc.mip_level_count));
     }
-    const bool is_framebuffer = host.kind == HostTarget::Kind::Framebuffer;
-    if (!is_framebuffer && host.name == 0) {
+    if (host.kind != HostTarget::Kind::Framebuffer && host.name == 0) {
         return fail(ErrorCode::InvalidInput, fmt::format("{} is none: 0 names no {}.",
                                                          name_of(desc, host), word_of(host.kind)));
     }
-    TextureObject texture{
-        .label = desc.label,
-        .target = desc.sample_count > 1 ? GLenum{GL_TEXTURE_2D_MULTISAMPLE} : GLenum{GL_TEXTURE_2D},
-        .format = desc.format,
-        .width = desc.width,
-        .height = desc.height};
-    texture.host = drawn_as(gl, host);
-    drop_errors(gl);  // of the host's
-    Size size{static_cast<GLint>(desc.width), static_cast<GLint>(desc.height)};
-    if (is_framebuffer) {
-        gl.BindFramebuffer(GL_FRAMEBUFFER, host.name);
-    } else {
-        texture.host->name = wrap(gl, host, texture.target, size);
-    }
-    Status usable = check_errors(gl, fmt::format("Importing {}", name_of(desc, host)));
-    // Of a framebuffer that is not complete nothing but its attachments can be asked.
-    const bool is_window = is_framebuffer && host.name == 0;
-    const GLenum status = usable ? gl.CheckFramebufferStatus(GL_FRAMEBUFFER) : GLenum{GL_NONE};
-    if (usable && status != GL_FRAMEBUFFER_COMPLETE) {
-        usable = fail(ErrorCode::Unsupported,
-                      fmt::format("{} cannot be drawn to as depth and stencil (framebuffer status "
-                                  "0x{:04X}): complete it first, with depth and stencil of "
-                                  "GL_DEPTH24_STENCIL8 or GL_DEPTH32F_STENCIL8.",
-                                  name_of(desc, host), status));
-    }
-    if (usable) usable = check_bits(gl, desc, host, is_window);
-    if (usable && is_framebuffer && !is_window) measure(gl, texture.target, size);
-    if (usable && (size.width != static_cast<GLint>(desc.width) ||
-                   size.height != static_cast<GLint>(desc.height))) {
-        usable = fail(ErrorCode::InvalidInput,
-                      fmt::format("{} has {} x {} pixels, not {} x {}.", name_of(desc, host),
-                                  size.width, size.height, desc.width, desc.height));
-    }
-    if (!usable) {
-        if (texture.host->owned) gl.DeleteFramebuffers(1, &texture.host->name);
-        return forward_error(usable);
-    }
-    return texture;
+    drop_errors(adapter.gl);  // of the host's
+    return is_color ? import_color(adapter.gl, desc, host)
+                    : import_depth_stencil(adapter.gl, desc, host);
 }
 
 }  // namespace gnomon::gl

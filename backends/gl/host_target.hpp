@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// HostTarget: what a host draws its scene into, for Device::import_texture(). Shadow volumes are
-// counted in its stencil against its depth; it and all that is attached to it stay the host's.
+// HostTarget: what a host draws into, for Device::import_texture(). Its depth and stencil, in which
+// shadow volumes are counted, or a texture that light masks go to; it and all that is attached to
+// it stay the host's.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,11 @@
 namespace gnomon::gl {
 
 /// The TextureDesc beside it says size, format and samples, which are checked, and has the usage
-/// RenderAttachment alone. The format is Depth24UnormStencil8 for depth in normalised integers of
-/// any width, Depth32FloatStencil8 for floats. The size is not checked of the window's framebuffer,
-/// nor of a framebuffer with a texture other than the two below for depth.
+/// RenderAttachment alone. For depth and stencil the format is Depth24UnormStencil8 with depth in
+/// normalised integers of any width, Depth32FloatStencil8 with floats. The size is not checked of
+/// the window's framebuffer, nor of a framebuffer with a texture other than the two below for
+/// depth; with these, light masks cannot be resolved. A colour format names a Texture of just that
+/// internal format, with row 0 where the framebuffer has it that the scene is drawn into.
 struct HostTarget {
     enum class Kind : std::uint8_t {
         Framebuffer,  ///< with any colour attachments, which are left alone; 0 is the window's

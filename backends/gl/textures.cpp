@@ -103,12 +103,19 @@ Result<TextureObject> make_texture(const Adapter& adapter, FramebufferCache& cac
     return texture;
 }
 
-void delete_texture(const GlFunctions& gl, FramebufferCache& cache, const TextureObject& texture) {
-    if (texture.host) {
-        if (texture.host->owned) gl.DeleteFramebuffers(1, &texture.host->name);
-        return;
+void forget_framebuffers(const GlFunctions& gl, FramebufferCache& cache,
+                         const TextureObject& texture) {
+    if (!texture.host) {
+        cache.forget_texture(gl, texture.name);
+    } else if (texture.host->attached) {
+        cache.forget_host(gl, *texture.host->attached);
     }
-    cache.forget_texture(gl, texture.name);
+}
+
+void delete_texture(const GlFunctions& gl, FramebufferCache& cache, const TextureObject& texture) {
+    forget_framebuffers(gl, cache, texture);
+    if (texture.host && texture.host->owned) gl.DeleteFramebuffers(1, &texture.host->name);
+    if (texture.host || texture.borrowed) return;
     if (texture.stencil_view != 0) gl.DeleteTextures(1, &texture.stencil_view);
     gl.DeleteTextures(1, &texture.name);
 }

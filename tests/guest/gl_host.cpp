@@ -35,6 +35,36 @@ out vec4 color;
 void main() { color = vec4(0.5, 0.6, 0.7, 1.0); }
 )";
 
+// A sample's integer, at the pixel where it is.
+constexpr const char* fetching_vertex_text = R"(#version 430
+void main() {
+    gl_Position = vec4(vec2(gl_VertexID << 1 & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+constexpr const char* fetching_fragment_text = R"(#version 430
+uniform usampler2DMS source;
+uniform int wanted;
+out uint value;
+void main() { value = texelFetch(source, ivec2(gl_FragCoord.xy), wanted).r; }
+)";
+
+GLuint link(const HostGl& gl, const char* vertex, const char* fragment) {
+    const GLuint program = gl.CreateProgram();
+    for (const bool is_vertex : {true, false}) {
+        const GLuint shader = gl.CreateShader(is_vertex ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
+        const char* text = is_vertex ? vertex : fragment;
+        gl.ShaderSource(shader, 1, &text, nullptr);
+        gl.CompileShader(shader);
+        gl.AttachShader(program, shader);
+    }
+    gl.BindAttribLocation(program, 0, "position");
+    gl.LinkProgram(program);
+    GLint linked = GL_FALSE;
+    gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked == GL_FALSE) throw std::runtime_error("The host's shaders do not link.");
+    return program;
+}
+
 }  // namespace
 
 HostGl::HostGl(const gl::Context& context) {
@@ -54,9 +84,10 @@ GlHost::GlHost(std::unique_ptr<gl::Context> context, HostWay way)
 
 GlHost::~GlHost() {
     make_current();
+    gl_.DeleteTextures(static_cast<GLsizei>(masks_.size()), masks_.data());
     gl_.DeleteFramebuffers(1, &framebuffer_);
     gl_.DeleteRenderbuffers(1, &color_);
-    if (way_.kind == gl::HostTarget::Kind::Texture) {
+    if (way_.kind == gl::HostTarget::Kind::Texture || way_.samples > 1) {
         gl_.DeleteTextures(1, &depth_stencil_);
     } else {
         gl_.DeleteRenderbuffers(1, &depth_stencil_);
@@ -66,21 +97,10 @@ GlHost::~GlHost() {
 void GlHost::make_current() const { must(context_->make_current()); }
 
 void GlHost::make_program() {
-    program_ = gl_.CreateProgram();
     std::string vertex = vertex_text;
     vertex.replace(vertex.find("SHARED"), 6, way_.shared_positions ? "true" : "false");
-    for (const bool is_vertex : {true, false}) {
-        const GLuint shader = gl_.CreateShader(is_vertex ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
-        const char* text = is_vertex ? vertex.c_str() : fragment_text;
-        gl_.ShaderSource(shader, 1, &text, nullptr);
-        gl_.CompileShader(shader);
-        gl_.AttachShader(program_, shader);
-    }
-    gl_.BindAttribLocation(program_, 0, "position");
-    gl_.LinkProgram(program_);
-    GLint linked = GL_FALSE;
-    gl_.GetProgramiv(program_, GL_LINK_STATUS, &linked);
-    if (linked == GL_FALSE) throw std::runtime_error("The host's shaders do not link.");
+    program_ = link(gl_, vertex.c_str(), fragment_text);
+    fetching_program_ = link(gl_, fetching_vertex_text, fetching_fragment_text);
     gl_.GenVertexArrays(1, &vertex_array_);
 }
 
@@ -98,24 +118,39 @@ void GlHost::make_framebuffer() {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     gl_.GenRenderbuffers(1, &color_);
     gl_.BindRenderbuffer(GL_RENDERBUFFER, color_);
-    gl_.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER,
+                                       way_.samples > 1 ? static_cast<GLsizei>(way_.samples) : 0,
+                                       GL_RGBA8, width, height);
     gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
-    if (way_.kind == gl::HostTarget::Kind::Texture) {
-        gl_.GenTextures(1, &depth_stencil_);
-        gl_.BindTexture(GL_TEXTURE_2D, depth_stencil_);
-        gl_.TexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
-        gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D,
-                                 depth_stencil_, 0);
-    } else {
+    make_depth_stencil(format);
+    if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        throw std::runtime_error("The host's framebuffer is not complete.");
+    }
+}
+
+void GlHost::make_depth_stencil(GLenum format) {
+    const auto width = static_cast<GLsizei>(row_width);
+    const auto height = static_cast<GLsizei>(row_height);
+    if (way_.kind != gl::HostTarget::Kind::Texture && way_.samples == 1) {
         gl_.GenRenderbuffers(1, &depth_stencil_);
         gl_.BindRenderbuffer(GL_RENDERBUFFER, depth_stencil_);
         gl_.RenderbufferStorage(GL_RENDERBUFFER, format, width, height);
         gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                                     depth_stencil_);
+        return;
     }
-    if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        throw std::runtime_error("The host's framebuffer is not complete.");
+    const GLenum target = way_.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+    gl_.GenTextures(1, &depth_stencil_);
+    gl_.BindTexture(target, depth_stencil_);
+    if (way_.samples > 1) {
+        gl_.TexStorage2DMultisample(target, static_cast<GLsizei>(way_.samples), format, width,
+                                    height, GL_TRUE);
+        gl_.TexParameteri(target, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);
+    } else {
+        gl_.TexStorage2D(target, 1, format, width, height);
     }
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, target, depth_stencil_,
+                             0);
 }
 
 gl::HostTarget GlHost::target() const {
@@ -200,19 +235,90 @@ void GlHost::draw(const Setting& setting) {
         });
 }
 
-std::vector<std::uint8_t> GlHost::stencil() const {
-    std::vector<std::uint8_t> rows(std::size_t{row_width} * row_height);
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+template <class T>
+std::vector<T> GlHost::read(GLuint framebuffer, GLenum format, GLenum type) const {
+    std::vector<T> rows(std::size_t{row_width} * row_height);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_.ReadPixels(0, 0, static_cast<GLsizei>(row_width), static_cast<GLsizei>(row_height),
-                   GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, rows.data());
-    if (way_.y_down != way_.upper_left) return rows;
-    std::vector<std::uint8_t> turned;
+    gl_.ReadPixels(0, 0, static_cast<GLsizei>(row_width), static_cast<GLsizei>(row_height), format,
+                   type, rows.data());
+    if (!samples_are_mirrored()) return rows;
+    std::vector<T> turned;
     for (std::size_t y = row_height; y-- > 0;) {
         const auto* row = rows.data() + y * row_width;
         turned.insert(turned.end(), row, row + row_width);
     }
     return turned;
+}
+
+std::vector<std::uint8_t> GlHost::stencil() const {
+    return read<std::uint8_t>(framebuffer_, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE);
+}
+
+std::vector<std::uint8_t> GlHost::stencil_sample(int sample) const {
+    const auto values = fetch_sample(depth_stencil_, sample);
+    return {values.begin(), values.end()};
+}
+
+GLuint GlHost::make_mask(GLenum format, std::uint32_t samples) {
+    const auto width = static_cast<GLsizei>(row_width);
+    const auto height = static_cast<GLsizei>(row_height);
+    GLuint mask = 0;
+    gl_.GenTextures(1, &mask);
+    if (samples > 1) {
+        gl_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, mask);
+        gl_.TexStorage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, static_cast<GLsizei>(samples),
+                                    format, width, height, GL_TRUE);
+    } else {
+        gl_.BindTexture(GL_TEXTURE_2D, mask);
+        gl_.TexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+    }
+    masks_.push_back(mask);
+    return mask;
+}
+
+std::vector<std::uint32_t> GlHost::read_bits(GLuint mask, int sample) const {
+    if (way_.samples > 1) return fetch_sample(mask, sample);
+    GLuint framebuffer = 0;
+    gl_.GenFramebuffers(1, &framebuffer);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, mask, 0);
+    auto bits = read<std::uint32_t>(framebuffer, GL_RED_INTEGER, GL_UNSIGNED_INT);
+    gl_.DeleteFramebuffers(1, &framebuffer);
+    return bits;
+}
+
+std::vector<std::uint8_t> GlHost::read_bytes(GLuint mask) const {
+    GLuint framebuffer = 0;
+    gl_.GenFramebuffers(1, &framebuffer);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, mask, 0);
+    auto bytes = read<std::uint8_t>(framebuffer, GL_RED, GL_UNSIGNED_BYTE);
+    gl_.DeleteFramebuffers(1, &framebuffer);
+    return bytes;
+}
+
+std::vector<std::uint32_t> GlHost::fetch_sample(GLuint texture, int sample) const {
+    GLuint framebuffer = 0;
+    GLuint target = 0;
+    gl_.GenFramebuffers(1, &framebuffer);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl_.GenRenderbuffers(1, &target);
+    gl_.BindRenderbuffer(GL_RENDERBUFFER, target);
+    gl_.RenderbufferStorage(GL_RENDERBUFFER, GL_R32UI, static_cast<GLsizei>(row_width),
+                            static_cast<GLsizei>(row_height));
+    gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
+    gl_.Viewport(0, 0, static_cast<GLsizei>(row_width), static_cast<GLsizei>(row_height));
+    gl_.Disable(GL_DEPTH_TEST);
+    gl_.UseProgram(fetching_program_);
+    gl_.Uniform1i(gl_.GetUniformLocation(fetching_program_, "wanted"), sample);
+    gl_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture);
+    gl_.BindVertexArray(vertex_array_);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    auto values = read<std::uint32_t>(framebuffer, GL_RED_INTEGER, GL_UNSIGNED_INT);
+    gl_.DeleteFramebuffers(1, &framebuffer);
+    gl_.DeleteRenderbuffers(1, &target);
+    return values;
 }
 
 }  // namespace gnomon::test

@@ -29,12 +29,13 @@ namespace gnomon::test {
     X(BindTexture) X(BindVertexArray) X(BufferData) X(CheckFramebufferStatus) X(Clear)            \
     X(ClearDepth) X(ClearStencil) X(ClipControl) X(CompileShader) X(CreateProgram)                \
     X(CreateShader) X(DeleteFramebuffers) X(DeleteRenderbuffers) X(DeleteTextures) X(DepthFunc)   \
-    X(Disable) X(DrawElements) X(Enable) X(EnableVertexAttribArray) X(FramebufferRenderbuffer)    \
-    X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures)   \
+    X(Disable) X(DrawArrays) X(DrawElements) X(Enable) X(EnableVertexAttribArray)                 \
+    X(FramebufferRenderbuffer) X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures)   \
     X(GenVertexArrays) X(GetError) X(GetIntegerv) X(GetProgramiv) X(GetUniformLocation)           \
     X(LinkProgram) X(PixelStorei) X(ReadPixels) X(RenderbufferStorage)                            \
-    X(RenderbufferStorageMultisample) X(ShaderSource) X(TexStorage2D) X(UniformMatrix4fv)         \
-    X(UseProgram) X(VertexAttribPointer) X(Viewport)
+    X(RenderbufferStorageMultisample) X(ShaderSource) X(TexParameteri) X(TexStorage2D)            \
+    X(TexStorage2DMultisample) X(Uniform1i) X(UniformMatrix4fv) X(UseProgram)                     \
+    X(VertexAttribPointer) X(Viewport)
 // clang-format on
 
 struct HostGl {
@@ -64,6 +65,8 @@ struct HostWay {
     gpu::Format format = gpu::Format::Depth24UnormStencil8;
     gl::HostTarget::Kind kind = gl::HostTarget::Kind::Framebuffer;
     double near_m = 0.05;
+    /// With four, depth and stencil are a texture.
+    std::uint32_t samples = 1;
 };
 
 class GlHost {
@@ -91,17 +94,36 @@ public:
     void draw(const Setting& setting);
     /// One byte a pixel, in truth's order of rows: what is up in the picture comes first.
     [[nodiscard]] std::vector<std::uint8_t> stencil() const;
+    /// The same of one of four samples.
+    [[nodiscard]] std::vector<std::uint8_t> stencil_sample(int sample) const;
+    /// Where samples lie as the picture is seen: row 0 is at the bottom, so are they.
+    [[nodiscard]] bool samples_are_mirrored() const { return way_.y_down == way_.upper_left; }
+
+    /// A texture of its own for light masks: GL_R32UI or GL_R8.
+    [[nodiscard]] GLuint make_mask(GLenum format, std::uint32_t samples = 1);
+    [[nodiscard]] static gl::HostTarget mask_target(GLuint mask) {
+        return {.kind = gl::HostTarget::Kind::Texture, .name = mask};
+    }
+    /// Its texels, of one sample where there are four, in truth's order of rows.
+    [[nodiscard]] std::vector<std::uint32_t> read_bits(GLuint mask, int sample = 0) const;
+    [[nodiscard]] std::vector<std::uint8_t> read_bytes(GLuint mask) const;
 
 private:
     void make_program();
     void make_framebuffer();
+    void make_depth_stencil(GLenum format);
+    /// Unsigned integers of one sample.
+    [[nodiscard]] std::vector<std::uint32_t> fetch_sample(GLuint texture, int sample) const;
+    template <class T>
+    [[nodiscard]] std::vector<T> read(GLuint framebuffer, GLenum format, GLenum type) const;
     void set_clip_control() const;
 
     std::unique_ptr<gl::Context> context_;
     HostWay way_;
     HostGl gl_;
-    GLuint program_ = 0, vertex_array_ = 0;
+    GLuint program_ = 0, fetching_program_ = 0, vertex_array_ = 0;
     GLuint framebuffer_ = 0, color_ = 0, depth_stencil_ = 0;
+    std::vector<GLuint> masks_;
 };
 
 }  // namespace gnomon::test

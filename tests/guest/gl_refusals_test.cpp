@@ -9,7 +9,7 @@
 #include <utility>
 
 #include <gnomon/gl/backend.hpp>
-#include <gnomon/shadow_pass/guest_pass.hpp>
+#include <gnomon/shadow_pass/light_masks.hpp>
 
 #include "tests/guest/gl_host.hpp"
 #include "tests/support/devices.hpp"
@@ -30,6 +30,14 @@ protected:
     }
     void TearDown() override { device_.reset(); }
 
+    std::string mask_refusal(const gl::HostTarget& target, gpu::TextureDesc desc) {
+        desc.label = "mask";
+        if (desc.width == 0) desc.width = row_width;
+        desc.height = row_height;
+        desc.usage = gpu::TextureUsage::RenderAttachment;
+        const auto imported = device_->import_texture(desc, target);
+        return imported ? "imported" : imported.error().message;
+    }
     std::string refusal(const gl::HostTarget& target, gpu::TextureDesc desc = {}) {
         desc.label = "depth";
         if (desc.width == 0) desc.width = row_width;
@@ -51,6 +59,11 @@ protected:
         gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, row_width, row_height);
         gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
         return framebuffer;
+    }
+
+    template <class Function>
+    [[nodiscard]] Function find(const char* name) const {
+        return reinterpret_cast<Function>(host_->find(name));
     }
 
     std::unique_ptr<GlHost> host_;
@@ -124,6 +137,66 @@ TEST_F(GuestRefusals, sizes_are_those_of_the_hosts_texture) {
                                                 other.target());
     ASSERT_FALSE(imported);
     EXPECT_THAT(imported.error().message, HasSubstr("has 320 x 240 pixels, not 17 x 240"));
+}
+
+TEST_F(GuestRefusals, a_mask_is_a_texture_of_what_was_said) {
+    constexpr auto bits = gpu::Format::R32Uint;
+    const GLuint mask = host_->make_mask(GL_R32UI);
+    const gl::HostTarget target = GlHost::mask_target(mask);
+    EXPECT_EQ(mask_refusal(target, {.format = bits}), "imported");
+    EXPECT_THAT(mask_refusal(target, {.format = gpu::Format::R8Unorm}),
+                HasSubstr("has the internal format 0x8236, not 0x8229"));
+    EXPECT_THAT(mask_refusal(target, {.width = 17, .format = bits}),
+                HasSubstr("has 320 x 240 pixels, not 17 x 240"));
+    EXPECT_THAT(mask_refusal(target, {.format = bits, .sample_count = 4}),
+                HasSubstr("as a 2D texture of 4 samples"));
+    EXPECT_THAT(mask_refusal(target, {.format = bits, .mip_level_count = 2}),
+                HasSubstr("can only have 1 mip level, not 2"));
+    EXPECT_THAT(
+        mask_refusal({.kind = gl::HostTarget::Kind::Renderbuffer, .name = 1}, {.format = bits}),
+        HasSubstr("give a texture of the host's"));
+    EXPECT_THAT(mask_refusal({.kind = gl::HostTarget::Kind::Texture}, {.format = bits}),
+                HasSubstr("0 names no texture"));
+    EXPECT_THAT(
+        mask_refusal({.kind = gl::HostTarget::Kind::Texture, .name = 4711}, {.format = bits}),
+        HasSubstr("the host's texture 4711"));
+    EXPECT_EQ(host_->gl().GetError(), GLenum{GL_NO_ERROR});
+}
+
+// As little as the window's framebuffer, which OSMesa has without a stencil.
+TEST_F(GuestRefusals, depth_in_an_array_takes_no_mask) {
+    const HostGl& gl = host_->gl();
+    GLuint texture = 0;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
+    find<decltype(&::glTexStorage3D)>("glTexStorage3D")(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH24_STENCIL8,
+                                                        row_width, row_height, 3);
+    GLuint framebuffer = 0;
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    find<decltype(&::glFramebufferTextureLayer)>("glFramebufferTextureLayer")(
+        GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, texture, 0, 2);
+    gpu::TextureDesc desc{.label = "layer",
+                          .width = row_width,
+                          .height = row_height,
+                          .format = gpu::Format::Depth24UnormStencil8,
+                          .usage = gpu::TextureUsage::RenderAttachment};
+    const auto layer = must(device_->import_texture(desc, gl::HostTarget{.name = framebuffer}));
+    desc.label = "mask";
+    desc.format = gpu::Format::R32Uint;
+    const auto mask = must(device_->create_texture(desc));
+    auto masks = must(shadow_pass::LightMasks::create(
+        *device_, {.host = {.target = layer, .size = {row_width, row_height}}, .masks = {mask}}));
+    const shadows::DrawList nothing;
+    const auto view = must(shadows::view_of_host(
+        glm::dmat4(1.0), glm::dmat4{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, -1}, {0, 0, -0.2, 0}},
+        {}));
+    must(masks.prepare(nothing, view));
+    const Status resolved = masks.resolve();
+    ASSERT_FALSE(resolved);
+    EXPECT_THAT(resolved.error().message,
+                HasSubstr("such as the window's: draw the scene into a framebuffer that has"));
+    EXPECT_EQ(gl.GetError(), GLenum{GL_NO_ERROR});
 }
 
 TEST_F(GuestRefusals, depth_is_said_as_clip_control_has_it) {

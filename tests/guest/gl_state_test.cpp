@@ -13,6 +13,7 @@
 #include <gnomon/gl/backend.hpp>
 #include <gnomon/scene/shadow_adapter.hpp>
 #include <gnomon/shadow_pass/guest_pass.hpp>
+#include <gnomon/shadow_pass/light_masks.hpp>
 
 #include "tests/guest/gl_host.hpp"
 #include "tests/support/devices.hpp"
@@ -308,6 +309,7 @@ TEST_P(GuestState, everything_is_as_it_was_after_every_call) {
     GlHost host(std::move(*context), {.name = "host", .zero_to_one = true, .upper_left = true});
     const Setting setting = rows().front().make();
     host.draw(setting);
+    const GLuint mask_name = host.make_mask(GL_R32UI);
     make_strange(host);
     const Snapshot before = snapshot(host);
     EXPECT_EQ(before.at("GL_PROVOKING_VERTEX")[0], 1.0 * GL_LAST_VERTEX_CONVENTION);
@@ -361,6 +363,26 @@ TEST_P(GuestState, everything_is_as_it_was_after_every_call) {
             must(guest.count(light));
             expect_unchanged("a light was counted");
         }
+        {
+            const auto mask =
+                must(device.import_texture({.label = "mask",
+                                            .width = row_width,
+                                            .height = row_height,
+                                            .format = gpu::Format::R32Uint,
+                                            .usage = gpu::TextureUsage::RenderAttachment},
+                                           GlHost::mask_target(mask_name)));
+            expect_unchanged("a mask was imported");
+            auto masks = must(shadow_pass::LightMasks::create(
+                device, {.host = {.target = target,
+                                  .size = {row_width, row_height},
+                                  .conventions = host.conventions()},
+                         .masks = {mask}}));
+            expect_unchanged("light masks were made");
+            must(masks.prepare(list, view));
+            must(masks.resolve());
+            expect_unchanged("light masks were resolved");
+        }
+        expect_unchanged("light masks were freed");
         target.reset();
         expect_unchanged("the target was let go");
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <map>
 #include <tuple>
@@ -24,6 +25,37 @@ const Traced& truth_of(const std::string& row) {
     const auto found = traced.find(row);
     if (found != traced.end()) return found->second;
     return traced.emplace(row, trace_lights(setting_of(row))).first->second;
+}
+
+// Four places a pixel, as row 0 at the bottom has them.
+const Traced& truth_of_samples(const std::string& row, bool mirrored) {
+    static std::map<std::pair<std::string, bool>, Traced> traced;
+    const auto found = traced.find({row, mirrored});
+    if (found != traced.end()) return found->second;
+    truth::Options options{.width = row_width, .height = row_height};
+    if (!mirrored) {
+        return traced.emplace(std::pair(row, mirrored), trace_lights(setting_of(row), options, 4))
+            .first->second;
+    }
+    constexpr std::array<glm::dvec2, 4> places{
+        {{0.375, 0.875}, {0.875, 0.625}, {0.125, 0.375}, {0.625, 0.125}}};
+    Traced of_samples;
+    for (const glm::dvec2& place : places) {
+        options.sample_position = place;
+        Traced one = trace_lights(setting_of(row), options);
+        of_samples.resize(one.size());
+        for (std::size_t light = 0; light < one.size(); ++light) {
+            of_samples[light].push_back(std::move(one[light][0]));
+        }
+    }
+    return traced.emplace(std::pair(row, mirrored), std::move(of_samples)).first->second;
+}
+
+void expect_none_wrong(const truth::Judgement& judgement) {
+    EXPECT_EQ(judgement.false_shadow, 0U) << wrong_places(judgement, row_width);
+    EXPECT_EQ(judgement.false_light, 0U) << wrong_places(judgement, row_width);
+    EXPECT_GT(judgement.shadowed, judgement.judged() / 20);
+    EXPECT_GT(judgement.lit, judgement.judged() / 20);
 }
 
 const Picture& our_picture(const std::string& row, const MaskOptions& options) {
@@ -51,8 +83,9 @@ const Setting& setting_of(const std::string& row) {
 
 shadows::DrawList list_of(const std::string& row, const MaskOptions& options,
                           const shadows::View& view) {
-    auto system = must(shadows::ShadowSystem::create(
-        {.force_technique = options.technique, .receivers = options.receivers}));
+    auto system = must(shadows::ShadowSystem::create({.force_technique = options.technique,
+                                                      .silhouette = options.silhouette,
+                                                      .receivers = options.receivers}));
     auto frame = system.begin_frame();
     scene::ShadowAdapter adapter;
     must(adapter.submit(setting_of(row).scene, frame));
@@ -63,11 +96,7 @@ void expect_true(const std::string& row, const MaskOptions& options,
                  const std::vector<std::vector<std::uint8_t>>& masks) {
     const Traced& traced = truth_of(row);
     ASSERT_EQ(masks.size(), traced.size());
-    const truth::Judgement judgement = judge_lights(traced, masks);
-    EXPECT_EQ(judgement.false_shadow, 0U) << wrong_places(judgement, row_width);
-    EXPECT_EQ(judgement.false_light, 0U) << wrong_places(judgement, row_width);
-    EXPECT_GT(judgement.shadowed, judgement.judged() / 20);
-    EXPECT_GT(judgement.lit, judgement.judged() / 20);
+    expect_none_wrong(judge_lights(traced, masks));
 
     // Not only the same shadow: the same number of layers, with the same sign.
     const Picture& picture = our_picture(row, options);
@@ -83,6 +112,38 @@ void expect_true(const std::string& row, const MaskOptions& options,
     }
     std::printf("%zu of %zu counts differ from our renderer's\n", different, compared);
     EXPECT_LE(different, compared / 500);
+}
+
+void expect_true_samples(const std::string& row,
+                         const std::vector<std::vector<std::vector<std::uint8_t>>>& masks,
+                         bool mirrored) {
+    const Traced& traced = truth_of_samples(row, mirrored);
+    ASSERT_EQ(masks.size(), traced.size());
+    expect_none_wrong(judge_lights(traced, masks));
+}
+
+void expect_true_bits(const std::string& row, const std::vector<std::uint32_t>& bits) {
+    const Traced& traced = truth_of(row);
+    std::vector<std::vector<std::uint8_t>> masks(traced.size());
+    for (std::size_t light = 0; light < masks.size(); ++light) {
+        for (const std::uint32_t word : bits) {
+            masks[light].push_back((word >> light & 1U) != 0 ? 255 : 0);
+        }
+    }
+    expect_none_wrong(judge_lights(traced, masks));
+}
+
+std::size_t wrong_bits(const std::vector<std::uint32_t>& bits,
+                       const std::vector<std::vector<std::uint8_t>>& stencils) {
+    std::vector<std::uint32_t> expected(bits.size(), 0);
+    for (std::size_t light = 0; light < stencils.size(); ++light) {
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            if (stencils[light].at(i) != 0) expected[i] |= 1U << light;
+        }
+    }
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < bits.size(); ++i) wrong += bits[i] != expected[i] ? 1 : 0;
+    return wrong;
 }
 
 }  // namespace gnomon::test

@@ -61,7 +61,9 @@ private:
 
     [[nodiscard]] Status bind_attachments(const gpu::RenderPassDesc& pass);
     /// Draws as the host does from here on: by its clip space and its provoking vertex.
-    [[nodiscard]] Status bind_host(const gpu::RenderPassDesc& pass, const HostFramebuffer& host);
+    /// `key`: the pass's colour attachments.
+    [[nodiscard]] Status bind_host(const gpu::RenderPassDesc& pass, FramebufferKey key,
+                                   const TextureObject& texture);
     void clear_attachments(const gpu::RenderPassDesc& pass);
     void clear_depth_stencil(const gpu::DepthStencilAttachment& attachment);
     [[nodiscard]] Status resolve(const gpu::ColorAttachment& attachment);

@@ -18,6 +18,7 @@ struct FramebufferKey {
     std::vector<GLuint> colors;
     GLuint depth_stencil = 0;
     GLint level = 0;
+    HostDepthStencil host = {};  ///< in place of depth_stencil
     auto operator<=>(const FramebufferKey&) const = default;
 };
 
@@ -34,12 +35,17 @@ public:
 
     /// Must run before the texture's name is deleted, since GL hands names out again.
     void forget_texture(const GlFunctions& gl, GLuint texture);
+    /// The same for what a host has for depth and stencil.
+    void forget_host(const GlFunctions& gl, const HostDepthStencil& host);
     void clear(const GlFunctions& gl);
 
 private:
     [[nodiscard]] Result<GLuint> find_or_make(const GlFunctions& gl, const FramebufferKey& key,
                                               GLenum target, gpu::Format depth_stencil_format,
                                               const std::string& label);
+
+    template <class Predicate>
+    void forget(const GlFunctions& gl, const Predicate& uses_it);
 
     std::map<FramebufferKey, GLuint> framebuffers_;
 };

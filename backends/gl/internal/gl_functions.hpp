@@ -36,7 +36,7 @@
     X(GetProgramInfoLog) X(GetProgramiv) X(GetQueryObjectui64v) X(GetQueryiv)                     \
     X(GetRenderbufferParameteriv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetStringi)   \
     X(GetTexLevelParameteriv) X(GetUniformLocation) X(InvalidateFramebuffer) X(IsEnabled)         \
-    X(IsEnabledi) X(LineWidth) X(LinkProgram) X(ObjectLabel) X(PixelStorei) X(PointSize)          \
+    X(IsEnabledi) X(IsTexture) X(LineWidth) X(LinkProgram) X(ObjectLabel) X(PixelStorei) X(PointSize)          \
     X(PolygonMode) X(PolygonOffset) X(PopDebugGroup) X(ProvokingVertex) X(PushDebugGroup)         \
     X(QueryCounter) X(ReadBuffer) X(ReadPixels) X(SamplerParameteri) X(ScissorIndexed)            \
     X(ShaderSource) X(StencilFunc) X(StencilFuncSeparate) X(StencilMask) X(StencilMaskSeparate)   \

@@ -5,6 +5,7 @@
 // bindings.cpp, backend.cpp), since only those know whether the context is current.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -51,10 +52,21 @@ struct BufferObject {
     std::uint64_t size = 0;
 };
 
-/// The framebuffer of a texture that was imported, and how the host draws into it.
+/// A host's depth and stencil, which can be attached to framebuffers of ours: a texture of the
+/// targets that TextureObject has, or a renderbuffer.
+struct HostDepthStencil {
+    GLuint texture = 0;
+    GLuint renderbuffer = 0;
+    GLint level = 0;
+    auto operator<=>(const HostDepthStencil&) const = default;
+};
+
+/// The framebuffer of a depth-stencil texture that was imported, and how the host draws into it.
 struct HostFramebuffer {
     GLuint name = 0;
     bool owned = false;  ///< made here, about a texture or renderbuffer of the host's
+    /// What it has there; not known of the window's framebuffer, of arrays and of cubes.
+    std::optional<HostDepthStencil> attached = std::nullopt;
     bool upper_left = false;
     GLenum clip_depth = GL_NEGATIVE_ONE_TO_ONE;
 };
@@ -70,6 +82,7 @@ struct TextureObject {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::optional<HostFramebuffer> host = std::nullopt;  ///< where it is set, there is no name
+    bool borrowed = false;  ///< a colour texture that was imported: the name is the host's
 };
 
 struct SamplerObject {

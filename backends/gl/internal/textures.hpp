@@ -15,6 +15,9 @@ namespace gnomon::gl {
 /// All texels are zero afterwards. A failure leaves nothing behind.
 [[nodiscard]] Result<TextureObject> make_texture(const Adapter& adapter, FramebufferCache& cache,
                                                  const gpu::TextureDesc& desc);
+/// Those that it is attached to: before its name goes, and when a host's comes.
+void forget_framebuffers(const GlFunctions& gl, FramebufferCache& cache,
+                         const TextureObject& texture);
 void delete_texture(const GlFunctions& gl, FramebufferCache& cache, const TextureObject& texture);
 
 void upload(const GlFunctions& gl, const TextureObject& texture, std::uint32_t mip_level,
