@@ -2,7 +2,7 @@
 //
 // gnomon as a guest in somebody else's Vulkan: a plain program with a device, images, pipelines and
 // a command buffer of its own (Vulkan 1.3, dynamic rendering, no window). What gnomon adds to it is
-// marked by "// guest". One command buffer draws ambient light and depth, then the guest's volumes,
+// marked by "// guest". One render pass draws ambient light and depth, then the guest's volumes,
 // recorded into it, then the lamp's light where the stencil is 0.
 //
 // Writes guest_in_vulkan.ppm and says how many pixels lie in shadow.
@@ -127,19 +127,21 @@ public:
         return commands_;
     }
 
+    /// Begins the pass.
     void draw_depth_and_ambient_light() {
         move(color_, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
              VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
         move(depth_, depth_and_stencil, VK_IMAGE_LAYOUT_UNDEFINED,
              VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
-        draw(ambient_, VK_ATTACHMENT_LOAD_OP_CLEAR);
+        begin_rendering();
+        draw(ambient_);
     }
 
-    /// Once more, added up: where nothing but this surface is in front, and no shadow.
+    /// Once more, added up: where nothing but this surface is in front, and no shadow. Ends the
+    /// pass.
     void add_lamp() {
-        move(color_, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-        draw(lamp_, VK_ATTACHMENT_LOAD_OP_LOAD);
+        draw(lamp_);
+        vkCmdEndRendering(commands_);
     }
 
     /// Submits, waits, and writes the picture.
@@ -174,7 +176,6 @@ public:
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     std::uint32_t queue_family = 0;
-    [[nodiscard]] VkImage depth_image() const { return depth_.handle; }
 
     std::vector<glm::vec3> positions = cube_corners();
     std::vector<std::uint32_t> indices{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
@@ -403,11 +404,11 @@ private:
         return pipeline;
     }
 
-    void draw(VkPipeline pipeline, VkAttachmentLoadOp load) const {
+    void begin_rendering() const {
         auto color = make<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
         color.imageView = color_.view;
         color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-        color.loadOp = load;
+        color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
         color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
         color.clearValue.color = {{0.05F, 0.06F, 0.08F, 1.0F}};
         VkRenderingAttachmentInfo depth = color;
@@ -421,6 +422,9 @@ private:
         rendering.pColorAttachments = &color;
         rendering.pDepthAttachment = rendering.pStencilAttachment = &depth;
         vkCmdBeginRendering(commands_, &rendering);
+    }
+
+    void draw(VkPipeline pipeline) const {
         vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         const VkDeviceSize zero = 0;
         vkCmdBindVertexBuffers(commands_, 0, 1, &vertices_.handle, &zero);
@@ -435,7 +439,6 @@ private:
                                sizeof constants, &constants);
             vkCmdDrawIndexed(commands_, static_cast<std::uint32_t>(indices.size()), 1, 0, 0, 0);
         }
-        vkCmdEndRendering(commands_);
     }
 
     /// Everything before it, then everything after it: the plainest barrier.
@@ -474,7 +477,7 @@ private:
 // ---- The guest: all that the host does for its shadows.
 
 Status draw_a_frame(Host& host) {
-    // Once: the device, the image, the conventions, the mesh.
+    // Once: the device, the pass, the conventions, the mesh.
     auto adopted =
         vk::adopt_device({.get_instance_proc_addr = reinterpret_cast<void*>(&vkGetInstanceProcAddr),
                           .instance = host.instance,
@@ -482,17 +485,15 @@ Status draw_a_frame(Host& host) {
                           .device = host.device,
                           .queue = host.queue,
                           .queue_family = host.queue_family,
-                          .enabled_features = {"depthClamp"}});
+                          .enabled_features = {"depthClamp", "dynamicRendering"}});
     if (!adopted) return forward_error(adopted);
     gpu::Device device(std::move(adopted->backend));
-    const auto target =
-        device.import_texture({.label = "depth",
-                               .width = width,
-                               .height = height,
-                               .format = gpu::Format::Depth32FloatStencil8,
-                               .usage = gpu::TextureUsage::RenderAttachment},
-                              vk::HostImage{reinterpret_cast<std::uint64_t>(host.depth_image()),
-                                            VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL});
+    const auto target = device.import_texture({.label = "depth",
+                                               .width = width,
+                                               .height = height,
+                                               .format = gpu::Format::Depth32FloatStencil8,
+                                               .usage = gpu::TextureUsage::RenderAttachment},
+                                              vk::HostRenderPass{.color_formats = {color_format}});
     if (!target) return forward_error(target);
     const shadows::HostConventions conventions{shadows::HostDepth::ZeroToOne, false};
     auto pass = shadow_pass::GuestPass::create(device, {.target = *target,
@@ -508,7 +509,7 @@ Status draw_a_frame(Host& host) {
          .indices = host.indices});
     if (!mesh) return forward_error(mesh);
 
-    // Each frame: what casts and what shines; then the volumes, between two passes of the host's.
+    // Each frame: what casts and what shines; then the volumes, in the midst of the host's pass.
     const auto view = shadows::view_of_host(host.view, host.projection, conventions);
     if (!view) return forward_error(view);
     auto frame = system->begin_frame();

@@ -325,11 +325,13 @@ Result<Adapter> adopt_adapter(const Instance& instance, const HostDevice& host) 
          {"independentBlend", "independentBlend"},
          {"occlusionQueryPrecise", "occlusionQueryPrecise"},
          {"sampleRateShading", "sampleRate"}}};
+    const auto is_enabled = [&host](std::string_view name) {
+        return std::find(host.enabled_features.begin(), host.enabled_features.end(), name) !=
+               host.enabled_features.end();
+    };
     std::vector<std::string> disabled;
     for (const auto& [name, option] : names) {
-        const bool enabled = std::find(host.enabled_features.begin(), host.enabled_features.end(),
-                                       name) != host.enabled_features.end();
-        if (!enabled) {
+        if (!is_enabled(name)) {
             disabled.emplace_back(option);
         }
     }
@@ -339,6 +341,7 @@ Result<Adapter> adopt_adapter(const Instance& instance, const HostDevice& host) 
         return fail(adapter.error().code, fmt::format("The host's Vulkan device does not fit: {}.",
                                                       adapter.error().message));
     }
+    adapter->dynamic_rendering = is_enabled("dynamicRendering");
     return adapter;
 }
 

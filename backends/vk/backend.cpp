@@ -76,19 +76,18 @@ Status VulkanBackend::write_texture(gpu::TextureId id, std::uint32_t mip_level,
 
 Status VulkanBackend::submit(const gpu::CommandBuffer& commands) {
     if (host_commands_ != nullptr && host_commands_->command_buffer != nullptr) {
-        // Uploads run before what the host submits.
-        if (const Status uploaded = queue_.submit(); !uploaded) {
-            return uploaded;
-        }
-        CommandRecorder recorder{*device_, render_passes_, resources_,
+        CommandRecorder recorder{*device_, render_passes_, resources_, queue_,
                                  static_cast<VkCommandBuffer>(host_commands_->command_buffer)};
-        return recorder.record(commands);
+        const Status recorded = recorder.record(commands);
+        // Uploads, and what cannot be recorded in a render pass, run before what the host submits.
+        const Status uploaded = queue_.submit();
+        return recorded ? uploaded : recorded;
     }
     const Result<VkCommandBuffer> out = queue_.commands();
     if (!out) {
         return forward_error(out);
     }
-    CommandRecorder recorder{*device_, render_passes_, resources_, *out};
+    CommandRecorder recorder{*device_, render_passes_, resources_, queue_, *out};
     if (const Status recorded = recorder.record(commands); !recorded) {
         return recorded;
     }

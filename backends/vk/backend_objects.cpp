@@ -57,18 +57,23 @@ Status VulkanBackend::create_texture(gpu::TextureId id, const gpu::TextureDesc& 
 
 Status VulkanBackend::import_texture(gpu::TextureId id, const gpu::TextureDesc& desc,
                                      const gpu::NativeTexture& native) {
-    const auto* host = std::any_cast<HostImage>(&native);
-    if (host == nullptr) {
+    const auto* image = std::any_cast<HostImage>(&native);
+    const auto* pass = std::any_cast<HostRenderPass>(&native);
+    if (image == nullptr && pass == nullptr) {
         return fail(ErrorCode::InvalidInput,
                     fmt::format("[Texture \"{}\"] cannot be imported: what Vulkan imports is a "
-                                "vk::HostImage.",
+                                "vk::HostImage or a vk::HostRenderPass.",
                                 desc.label));
     }
-    Result<Texture> texture = gnomon::vk::import_texture(*device_, desc, *host);
+    Result<Texture> texture = image != nullptr ? gnomon::vk::import_texture(*device_, desc, *image)
+                                               : gnomon::vk::import_texture(*device_, desc, *pass);
     if (!texture) {
         return forward_error(texture);
     }
     resources_.textures.insert(id, std::move(*texture));
+    if (pass != nullptr) {
+        host_passes_.push_back(id);
+    }
     return {};
 }
 
@@ -169,6 +174,21 @@ void VulkanBackend::write_descriptors(const BindGroup& group, const BindGroupLay
                                      writes.data(), 0, nullptr);
 }
 
+std::vector<HostPass> VulkanBackend::host_passes_for(const gpu::RenderPipelineDesc& desc) {
+    std::vector<HostPass> result;
+    if (!desc.targets.empty() || !desc.depth_stencil) {
+        return result;
+    }
+    for (const gpu::TextureId id : host_passes_) {
+        const Texture& texture = resources_.textures[id];
+        if (texture.format == desc.depth_stencil->format &&
+            texture.sample_count == desc.sample_count) {
+            result.push_back({id, &*texture.host_pass});
+        }
+    }
+    return result;
+}
+
 Status VulkanBackend::create_render_pipeline(gpu::RenderPipelineId id,
                                              const gpu::RenderPipelineDesc& desc) {
     PipelineParts parts;
@@ -179,7 +199,7 @@ Status VulkanBackend::create_render_pipeline(gpu::RenderPipelineId id,
     for (const gpu::BindGroupLayoutId layout : desc.bind_group_layouts) {
         parts.set_layouts.push_back(resources_.bind_group_layouts[layout].handle);
     }
-    Result<Pipeline> pipeline = pipeline_maker_.make(desc, parts);
+    Result<Pipeline> pipeline = pipeline_maker_.make(desc, parts, host_passes_for(desc));
     if (!pipeline) {
         return forward_error(pipeline);
     }
@@ -216,6 +236,7 @@ void VulkanBackend::destroy(gpu::BufferId id) { destroy_later(resources_.buffers
 
 void VulkanBackend::destroy(gpu::TextureId id) {
     Texture texture = resources_.textures.take(id);
+    std::erase(host_passes_, id);
     render_passes_.forget(texture.attachment);
     destroy_later(std::move(texture));
 }
@@ -254,10 +275,7 @@ void VulkanBackend::destroy_now(BindGroupLayout& layout) {
 
 void VulkanBackend::destroy_now(BindGroup& group) { descriptor_pools_.free(group.set); }
 
-void VulkanBackend::destroy_now(Pipeline& pipeline) {
-    device_->fn.DestroyPipeline(device_->handle, pipeline.handle, nullptr);
-    device_->fn.DestroyPipelineLayout(device_->handle, pipeline.layout, nullptr);
-}
+void VulkanBackend::destroy_now(Pipeline& pipeline) { pipeline_maker_.free(pipeline); }
 
 void VulkanBackend::destroy_now(QuerySet& queries) {
     device_->fn.DestroyQueryPool(device_->handle, queries.pool, nullptr);

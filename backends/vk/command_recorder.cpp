@@ -36,7 +36,8 @@ Status CommandRecorder::record(const gpu::CommandBuffer& source) {
 
 void CommandRecorder::visit(const gpu::cmd::SetPipeline& command) {
     const Pipeline& next = resources_.pipelines[command.pipeline];
-    device_.fn.CmdBindPipeline(out_, VK_PIPELINE_BIND_POINT_GRAPHICS, next.handle);
+    device_.fn.CmdBindPipeline(out_, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                               host_pass_ ? next.in_host_pass(host_pass_) : next.handle);
     // Vulkan keeps bound sets only up to the first slot whose layout differs.
     std::size_t same = 0;
     if (pipeline_ != nullptr) {

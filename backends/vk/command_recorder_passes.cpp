@@ -38,6 +38,9 @@ VkAttachmentLoadOp load_op(gpu::LoadOp wanted, const Texture& texture, VkImageAs
 bool clears_to_zero(gpu::LoadOp wanted) { return wanted == gpu::LoadOp::Load; }
 
 void note_store(Texture& texture, VkImageAspectFlags aspect, gpu::StoreOp op) {
+    if (texture.host_layout) {
+        return;  // stored, whatever the pass says
+    }
     if (op == gpu::StoreOp::Discard) {
         texture.undefined |= aspect & texture.aspects;
     } else {
@@ -54,22 +57,29 @@ Status CommandRecorder::begin_pass(const gpu::RenderPassDesc& pass,
         ++length;
     }
     commands = commands.first(length);
+    if (pass.depth_stencil && resources_.textures[pass.depth_stencil->texture].host_pass) {
+        return begin_in_host_pass(pass, pass.depth_stencil->texture, commands);
+    }
 
+    host_pass_ = {};
     BarrierBatch barriers;
-    prepare_reads(commands, barriers);
+    if (const Status prepared = prepare_reads(commands, barriers); !prepared) {
+        return prepared;
+    }
     FramebufferKey framebuffer_key;
     std::vector<VkImageView> resolve_views;
     std::vector<VkClearValue> clears;
     for (const gpu::ColorAttachment& attachment : pass.color_attachments) {
         Texture& texture = resources_.textures[attachment.texture];
-        prepare_attachment(texture, Usage::ColorAttachment, barriers);
+        prepare_attachment(texture, Usage::ColorAttachment,
+                           attachment.load_op == gpu::LoadOp::Clear, barriers);
         framebuffer_key.views.push_back(texture.attachment);
         clears.push_back(clear_color(texture.format, clears_to_zero(attachment.load_op)
                                                          ? gpu::Color{}
                                                          : attachment.clear_value));
         if (attachment.resolve_target) {
             Texture& target = resources_.textures[attachment.resolve_target];
-            prepare_attachment(target, Usage::ColorAttachment, barriers);
+            prepare_attachment(target, Usage::ColorAttachment, true, barriers);
             resolve_views.push_back(target.attachment);
         }
         framebuffer_key.width = texture.width;
@@ -81,7 +91,7 @@ Status CommandRecorder::begin_pass(const gpu::RenderPassDesc& pass,
     if (pass.depth_stencil) {
         const gpu::DepthStencilAttachment& attachment = *pass.depth_stencil;
         Texture& texture = resources_.textures[attachment.texture];
-        prepare_attachment(texture, Usage::DepthStencilAttachment, barriers);
+        prepare_attachment(texture, Usage::DepthStencilAttachment, false, barriers);
         framebuffer_key.views.push_back(texture.attachment);
         VkClearValue clear{};
         clear.depthStencil.depth =
@@ -125,32 +135,153 @@ Status CommandRecorder::begin_pass(const gpu::RenderPassDesc& pass,
     return {};
 }
 
+Status CommandRecorder::check_in_host_pass(const gpu::RenderPassDesc& pass, gpu::TextureId id,
+                                           std::span<const gpu::Command> commands) const {
+    const std::string subject = fmt::format("Render pass '{}' in the host's render pass of {}",
+                                            pass.label, resources_.textures[id].subject);
+    if (queue_.is_recording_to(out_)) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("{} has no command buffer to go to: set "
+                                "HostCommands::command_buffer to the one in which the host has "
+                                "begun that.",
+                                subject));
+    }
+    if (!pass.color_attachments.empty()) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("{} has colour attachments of its own: import the depth and "
+                                "stencil as a vk::HostImage, and draw outside of the host's.",
+                                subject));
+    }
+    if (pass.occlusion_query_set || pass.timestamp_writes) {
+        return fail(
+            ErrorCode::Unsupported,
+            fmt::format("{} has queries, which are reset outside of render passes.", subject));
+    }
+    for (const gpu::Command& command : commands) {
+        const auto* set = std::get_if<gpu::cmd::SetPipeline>(&command);
+        if (set != nullptr &&
+            resources_.pipelines[set->pipeline].in_host_pass(id) == VK_NULL_HANDLE) {
+            return fail(ErrorCode::InvalidInput,
+                        fmt::format("{} sets a pipeline that was made before that was imported: "
+                                    "import it first.",
+                                    subject));
+        }
+    }
+    return {};
+}
+
+Status CommandRecorder::begin_in_host_pass(const gpu::RenderPassDesc& pass, gpu::TextureId id,
+                                           std::span<const gpu::Command> commands) {
+    if (const Status checked = check_in_host_pass(pass, id, commands); !checked) {
+        return checked;
+    }
+    host_pass_ = id;
+    BarrierBatch barriers;
+    if (const Status prepared = prepare_reads(commands, barriers); !prepared) {
+        return prepared;
+    }
+    if (!barriers.empty()) {
+        const Result<VkCommandBuffer> before = before_pass();
+        if (!before) {
+            return forward_error(before);
+        }
+        barriers.flush(device_.fn, *before);
+    }
+    const Texture& texture = resources_.textures[id];
+    pass_ = &pass;
+    pipeline_ = nullptr;
+    groups_ = {};
+    begin_label(pass.label);
+    set_default_state(texture.width, texture.height);
+    clear_in_host_pass(*pass.depth_stencil, texture);
+    return {};
+}
+
+void CommandRecorder::clear_in_host_pass(const gpu::DepthStencilAttachment& attachment,
+                                         const Texture& texture) {
+    VkClearAttachment clear{};
+    clear.clearValue.depthStencil = {attachment.depth_clear_value, attachment.stencil_clear_value};
+    if (attachment.depth_load_op == gpu::LoadOp::Clear) {
+        clear.aspectMask |= VK_IMAGE_ASPECT_DEPTH_BIT;
+    }
+    if (attachment.stencil_load_op == gpu::LoadOp::Clear) {
+        clear.aspectMask |= VK_IMAGE_ASPECT_STENCIL_BIT;
+    }
+    if (clear.aspectMask == 0) {
+        return;
+    }
+    const VkClearRect all{{{0, 0}, {texture.width, texture.height}}, 0, 1};
+    device_.fn.CmdClearAttachments(out_, 1, &clear, 1, &all);
+}
+
 void CommandRecorder::end_pass() {
+    if (host_pass_) {
+        end_label();
+        pass_ = nullptr;
+        return;
+    }
     device_.fn.CmdEndRenderPass(out_);
     if (pass_->timestamp_writes) {
         write_timestamp(pass_->timestamp_writes->query_set, pass_->timestamp_writes->end_index);
     }
     end_label();
     note_stores(*pass_);
-    if (pass_->depth_stencil) {
-        Texture& texture = resources_.textures[pass_->depth_stencil->texture];
-        if (texture.host_layout) {
-            Dependency dependency;
-            texture.tracker.give_back(*texture.host_layout, dependency);
-            BarrierBatch barriers;
-            barriers.add_image(dependency, texture.handle, texture.aspects);
-            barriers.flush(device_.fn, out_);
+    BarrierBatch barriers;
+    for (const gpu::ColorAttachment& attachment : pass_->color_attachments) {
+        give_back(attachment.texture, barriers);
+        if (attachment.resolve_target) {
+            give_back(attachment.resolve_target, barriers);
         }
     }
+    if (pass_->depth_stencil) {
+        give_back(pass_->depth_stencil->texture, barriers);
+    }
+    barriers.flush(device_.fn, out_);
     pass_ = nullptr;
 }
 
-void CommandRecorder::prepare_reads(std::span<const gpu::Command> commands,
-                                    BarrierBatch& barriers) {
+void CommandRecorder::give_back(gpu::TextureId id, BarrierBatch& barriers) {
+    Texture& texture = resources_.textures[id];
+    if (texture.host_layout) {
+        Dependency dependency;
+        texture.tracker.give_back(*texture.host_layout, dependency);
+        barriers.add_image(dependency, texture.handle, texture.aspects);
+    }
+}
+
+Result<VkCommandBuffer> CommandRecorder::before_pass() {
+    if (host_pass_) {
+        return queue_.commands();
+    }
+    return out_;
+}
+
+Status CommandRecorder::prepare_reads(std::span<const gpu::Command> commands,
+                                      BarrierBatch& barriers) {
+    Status status;
+    const auto define = [&](auto& object) {
+        const Result<VkCommandBuffer> before = before_pass();
+        if (before) {
+            define_contents(device_, *before, object);
+        } else {
+            status = forward_error(before);
+        }
+    };
     const auto read_buffer = [&](gpu::BufferId id, Usage usage) {
         Buffer& buffer = resources_.buffers[id];
-        define_contents(device_, out_, buffer);
+        if (!buffer.zeroed) {
+            define(buffer);
+        }
         use_buffer(buffer, usage, barriers);
+    };
+    const auto read_texture = [&](const BoundTexture& bound) {
+        Texture& texture = resources_.textures[bound.texture];
+        if (texture.undefined != 0) {
+            define(texture);
+        }
+        use_texture(texture,
+                    bound.in_vertex_shader ? Usage::SampledInVertex : Usage::SampledInFragment,
+                    barriers);
     };
     for (const gpu::Command& command : commands) {
         if (const auto* set = std::get_if<gpu::cmd::SetBindGroup>(&command)) {
@@ -159,12 +290,7 @@ void CommandRecorder::prepare_reads(std::span<const gpu::Command> commands,
                 read_buffer(id, Usage::Uniform);
             }
             for (const BoundTexture& bound : group.textures) {
-                Texture& texture = resources_.textures[bound.texture];
-                define_contents(device_, out_, texture);
-                use_texture(
-                    texture,
-                    bound.in_vertex_shader ? Usage::SampledInVertex : Usage::SampledInFragment,
-                    barriers);
+                read_texture(bound);
             }
         } else if (const auto* vertices = std::get_if<gpu::cmd::SetVertexBuffer>(&command)) {
             read_buffer(vertices->buffer, Usage::VertexInput);
@@ -172,11 +298,16 @@ void CommandRecorder::prepare_reads(std::span<const gpu::Command> commands,
             read_buffer(indices->buffer, Usage::VertexInput);
         }
     }
+    return status;
 }
 
-void CommandRecorder::prepare_attachment(Texture& texture, Usage usage, BarrierBatch& barriers) {
+void CommandRecorder::prepare_attachment(Texture& texture, Usage usage, bool written,
+                                         BarrierBatch& barriers) {
     if (texture.host_layout) {
         texture.tracker.lent(*texture.host_layout);
+        if (written) {
+            texture.tracker.forget_contents();
+        }
     } else if (texture.mip_level_count > 1) {
         // The pass clears level 0 alone.
         define_contents(device_, out_, texture);
@@ -187,6 +318,10 @@ void CommandRecorder::prepare_attachment(Texture& texture, Usage usage, BarrierB
 }
 
 RenderPassKey CommandRecorder::describe_attachments(const gpu::RenderPassDesc& pass) {
+    // What is the host's is not ours to discard.
+    const auto stored = [](const Texture& texture, gpu::StoreOp op) {
+        return to_vk(texture.host_layout ? gpu::StoreOp::Store : op);
+    };
     const auto describe = [](const Texture& texture, Usage usage) {
         AttachmentState state;
         state.format = to_vk(texture.format);
@@ -199,7 +334,7 @@ RenderPassKey CommandRecorder::describe_attachments(const gpu::RenderPassDesc& p
         const Texture& texture = resources_.textures[attachment.texture];
         AttachmentState state = describe(texture, Usage::ColorAttachment);
         state.load = load_op(attachment.load_op, texture, VK_IMAGE_ASPECT_COLOR_BIT);
-        state.store = to_vk(attachment.store_op);
+        state.store = stored(texture, attachment.store_op);
         state.resolves = static_cast<bool>(attachment.resolve_target);
         key.colors.push_back(state);
     }
@@ -208,15 +343,11 @@ RenderPassKey CommandRecorder::describe_attachments(const gpu::RenderPassDesc& p
         const Texture& texture = resources_.textures[attachment.texture];
         AttachmentState state = describe(texture, Usage::DepthStencilAttachment);
         state.load = load_op(attachment.depth_load_op, texture, VK_IMAGE_ASPECT_DEPTH_BIT);
-        // What is the host's is not ours to discard.
-        const auto stored = [&](gpu::StoreOp op) {
-            return to_vk(texture.host_layout ? gpu::StoreOp::Store : op);
-        };
-        state.store = stored(attachment.depth_store_op);
+        state.store = stored(texture, attachment.depth_store_op);
         if (gpu::has_stencil(texture.format)) {
             state.stencil_load =
                 load_op(attachment.stencil_load_op, texture, VK_IMAGE_ASPECT_STENCIL_BIT);
-            state.stencil_store = stored(attachment.stencil_store_op);
+            state.stencil_store = stored(texture, attachment.stencil_store_op);
         }
         key.depth_stencil.push_back(state);
     }
@@ -234,7 +365,6 @@ void CommandRecorder::note_stores(const gpu::RenderPassDesc& pass) {
     }
     if (pass.depth_stencil) {
         Texture& texture = resources_.textures[pass.depth_stencil->texture];
-        if (texture.host_layout) return;  // stored, whatever the pass says
         note_store(texture, VK_IMAGE_ASPECT_DEPTH_BIT, pass.depth_stencil->depth_store_op);
         note_store(texture, VK_IMAGE_ASPECT_STENCIL_BIT, pass.depth_stencil->stencil_store_op);
     }

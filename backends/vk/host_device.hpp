@@ -27,17 +27,20 @@ struct HostDevice {
     /// What the device was made with of VkPhysicalDeviceFeatures, by its names; of use are
     /// "depthClamp" (needed for cameras with a far plane), "depthBounds", "depthBiasClamp",
     /// "independentBlend", "occlusionQueryPrecise" and "sampleRateShading" (needed for four
-    /// samples).
+    /// samples); and "dynamicRendering", of Vulkan 1.3 or VK_KHR_dynamic_rendering, where a
+    /// HostRenderPass is begun by it.
     std::vector<std::string> enabled_features = {};
 };
 
 /// Where what is submitted to an adopted device goes.
 struct HostCommands {
-    /// A VkCommandBuffer of the host's, being recorded, outside of a render pass: commands are
-    /// recorded into it, barriers included, and what is bound there is anybody's guess afterwards.
-    /// The host submits it to HostDevice::queue, once, before it calls gnomon for the next frame or
-    /// frees anything of gnomon's. Uploads are submitted by gnomon before. Null: all is submitted
-    /// to the queue at once, in order.
+    /// A VkCommandBuffer of the host's, being recorded: commands are recorded into it, and what is
+    /// bound there, dynamic state included, is anybody's guess afterwards. It is outside of a
+    /// render pass, since barriers are recorded as well; only what is drawn into a HostRenderPass
+    /// is recorded within that one. The host submits it to HostDevice::queue, once, before it calls
+    /// gnomon for the next frame or frees anything of gnomon's. Uploads are submitted by gnomon
+    /// before, and within a render pass the barriers that wait for them, too. Null: all is
+    /// submitted to the queue at once, in order.
     void* command_buffer = nullptr;
 };
 
@@ -51,14 +54,34 @@ struct AdoptedDevice {
 [[nodiscard]] Result<AdoptedDevice> adopt_device(const HostDevice& host);
 
 /// What Device::import_texture() takes: an image with one layer, of VkImageUsage
-/// DEPTH_STENCIL_ATTACHMENT, made with the format, size and samples of the TextureDesc (usage
-/// RenderAttachment alone).
+/// DEPTH_STENCIL_ATTACHMENT, or COLOR_ATTACHMENT for light masks, made with the format, size and
+/// samples of the TextureDesc (usage RenderAttachment alone), none of which can be checked here.
 struct HostImage {
     std::uint64_t image = 0;  ///< VkImage
     /// VkImageLayout that the image is in whenever it is drawn to, and in again afterwards. All of
-    /// the host's writes to it that came before on the queue are waited for, and what comes after
-    /// sees gnomon's.
+    /// the host's accesses to it that came before on the queue are waited for, and what comes after
+    /// sees gnomon's. A light mask is written whole, so before the first time it may be in
+    /// UNDEFINED all the same.
     std::uint32_t layout = 0;
+};
+
+/// What Device::import_texture() takes in place of a HostImage: the depth and stencil of a render
+/// pass that the host begins, draws its scene in, and lends for shadows before it goes on. What is
+/// drawn into the texture is recorded at HostCommands::command_buffer, which is within that pass
+/// then, as draws and a clear and nothing else. Pipelines are made for it with the GuestPass, so
+/// the import comes first. The TextureDesc has the size of the render area, which begins at (0, 0),
+/// the format and the samples of the depth-stencil attachment.
+///
+/// The pass has a stencil that may be written and one view (no multiview). Between the host's
+/// draws, the clear and the counting nothing has to be waited for: they are ordered by the pass.
+struct HostRenderPass {
+    /// VkRenderPass that is begun, or one compatible with it, alive for as long as the import; 0:
+    /// vkCmdBeginRendering().
+    std::uint64_t render_pass = 0;
+    std::uint32_t subpass = 0;
+    /// VkFormat of each colour attachment, in order, VK_FORMAT_UNDEFINED for one that is not used.
+    /// None is written. With a VkRenderPass only their number is looked at.
+    std::vector<std::uint32_t> color_formats = {};
 };
 
 }  // namespace gnomon::vk

@@ -173,8 +173,56 @@ Status PipelineMaker::check_supported(const gpu::RenderPipelineDesc& desc) const
     return {};
 }
 
+// `info`: the pipeline as it is for passes of ours without a colour.
+Status PipelineMaker::make_in_host_pass(VkGraphicsPipelineCreateInfo info,
+                                        const gpu::RenderPipelineDesc& desc, const HostPass& host,
+                                        Pipeline& pipeline) {
+    const HostRenderPass& pass = *host.pass;
+    // None is written.
+    const std::vector<VkPipelineColorBlendAttachmentState> targets(pass.color_formats.size());
+    VkPipelineColorBlendStateCreateInfo blend = *info.pColorBlendState;
+    blend.attachmentCount = static_cast<std::uint32_t>(targets.size());
+    blend.pAttachments = targets.data();
+    info.pColorBlendState = &blend;
+    std::vector<VkFormat> formats;
+    for (const std::uint32_t format : pass.color_formats) {
+        formats.push_back(static_cast<VkFormat>(format));
+    }
+    VkPipelineRenderingCreateInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats.size());
+    rendering.pColorAttachmentFormats = formats.data();
+    rendering.depthAttachmentFormat = to_vk(desc.depth_stencil->format);
+    rendering.stencilAttachmentFormat = rendering.depthAttachmentFormat;
+    info.renderPass = reinterpret_cast<VkRenderPass>(pass.render_pass);
+    info.subpass = pass.subpass;
+    if (info.renderPass == VK_NULL_HANDLE) {
+        info.pNext = &rendering;
+    }
+    PipelineInHostPass made{host.id};
+    if (const VkResult result = device_.fn.CreateGraphicsPipelines(device_.handle, cache_, 1, &info,
+                                                                   nullptr, &made.handle);
+        result != VK_SUCCESS) {
+        return failure(
+            result, "vkCreateGraphicsPipelines",
+            fmt::format("render pipeline '{}' in a render pass of the host's", desc.label));
+    }
+    pipeline.in_host_passes.push_back(made);
+    device_.set_name(VK_OBJECT_TYPE_PIPELINE, made.handle, desc.label + ", in the host's pass");
+    return {};
+}
+
+void PipelineMaker::free(const Pipeline& pipeline) {
+    device_.fn.DestroyPipeline(device_.handle, pipeline.handle, nullptr);
+    for (const PipelineInHostPass& in_host_pass : pipeline.in_host_passes) {
+        device_.fn.DestroyPipeline(device_.handle, in_host_pass.handle, nullptr);
+    }
+    device_.fn.DestroyPipelineLayout(device_.handle, pipeline.layout, nullptr);
+}
+
 Result<Pipeline> PipelineMaker::make(const gpu::RenderPipelineDesc& desc,
-                                     const PipelineParts& parts) {
+                                     const PipelineParts& parts,
+                                     std::span<const HostPass> host_passes) {
     if (const Status supported = check_supported(desc); !supported) {
         return forward_error(supported);
     }
@@ -256,6 +304,12 @@ Result<Pipeline> PipelineMaker::make(const gpu::RenderPipelineDesc& desc,
         return failure(result, "vkCreateGraphicsPipelines", subject);
     }
     device_.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, desc.label);
+    for (const HostPass& host : host_passes) {
+        if (const Status made = make_in_host_pass(info, desc, host, pipeline); !made) {
+            free(pipeline);
+            return forward_error(made);
+        }
+    }
     return pipeline;
 }
 

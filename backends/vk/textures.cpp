@@ -124,17 +124,38 @@ Status fill_in(Device& device, Memory& memory, const gpu::TextureDesc& desc, Tex
     return make_views(device, desc, texture);
 }
 
-/// Whether both aspects of an image can be in this layout at once.
-bool holds_depth_and_stencil(VkImageLayout layout) {
+/// Whether all aspects of an image can be in this layout at once.
+bool holds(VkImageLayout layout, VkImageAspectFlags aspects) {
+    const bool color = aspects == VK_IMAGE_ASPECT_COLOR_BIT;
     switch (layout) {
-        case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
         case VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL:
         case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL:
         case VK_IMAGE_LAYOUT_STENCIL_ATTACHMENT_OPTIMAL:
-        case VK_IMAGE_LAYOUT_STENCIL_READ_ONLY_OPTIMAL:
-        case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR: return false;
+        case VK_IMAGE_LAYOUT_STENCIL_READ_ONLY_OPTIMAL: return false;
+        case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR: return color;
+        case VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL:
+        case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL:
+        case VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_STENCIL_READ_ONLY_OPTIMAL: return !color;
         default: return true;
     }
+}
+
+/// What a host made can only be drawn to, whole.
+Status check_import(const gpu::TextureDesc& desc, const std::string& subject) {
+    if ((!gpu::has_stencil(desc.format) && !gpu::has_color(desc.format)) ||
+        desc.usage != gpu::TextureUsage::RenderAttachment) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("{} can only be of a depth-stencil or colour format, with the "
+                                "usage RenderAttachment and no other.",
+                                subject));
+    }
+    if (desc.mip_level_count != 1) {
+        return fail(ErrorCode::Unsupported, fmt::format("{} can only have 1 mip level, not {}.",
+                                                        subject, desc.mip_level_count));
+    }
+    return {};
 }
 
 Texture described(const gpu::TextureDesc& desc) {
@@ -172,41 +193,73 @@ Result<Texture> make_texture(Device& device, Memory& memory, const gpu::TextureD
 Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
                                const HostImage& host) {
     Texture texture = described(desc);
-    if (!gpu::has_stencil(desc.format) || desc.usage != gpu::TextureUsage::RenderAttachment) {
-        return fail(
-            ErrorCode::Unsupported,
-            fmt::format("The host's image of {} can only be of a depth-stencil format, with "
-                        "the usage RenderAttachment and no other.",
-                        texture.subject));
-    }
-    if (desc.mip_level_count != 1) {
-        return fail(ErrorCode::Unsupported,
-                    fmt::format("The host's image of {} can only have 1 mip level, not {}.",
-                                texture.subject, desc.mip_level_count));
+    const std::string subject = fmt::format("The host's image of {}", texture.subject);
+    if (const Status checked = check_import(desc, subject); !checked) {
+        return forward_error(checked);
     }
     if (host.image == 0) {
-        return fail(ErrorCode::InvalidInput,
-                    fmt::format("The host's image of {} is VK_NULL_HANDLE.", texture.subject));
+        return fail(ErrorCode::InvalidInput, fmt::format("{} is VK_NULL_HANDLE.", subject));
     }
-    if (host.layout == VK_IMAGE_LAYOUT_UNDEFINED || host.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
+    const auto layout = static_cast<VkImageLayout>(host.layout);
+    if (layout == VK_IMAGE_LAYOUT_UNDEFINED || layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
         return fail(ErrorCode::InvalidInput,
-                    fmt::format("The host's image of {} is in a layout in which it has no contents "
-                                "({}): say the one that its depth was drawn in.",
-                                texture.subject, host.layout));
+                    fmt::format("{} is in a layout in which it has no contents ({}): say the one "
+                                "that {}.",
+                                subject, host.layout,
+                                gpu::has_color(desc.format) ? "it is sampled in, for instance"
+                                                            : "its depth was drawn in"));
     }
-    if (!holds_depth_and_stencil(static_cast<VkImageLayout>(host.layout))) {
-        return fail(ErrorCode::Unsupported,
-                    fmt::format("The host's image of {} is in the layout {}, which is not one of "
-                                "depth and stencil together: depth and stencil must be in one "
-                                "layout, for instance DEPTH_STENCIL_ATTACHMENT_OPTIMAL.",
-                                texture.subject, host.layout));
+    if (!holds(layout, texture.aspects)) {
+        return fail(
+            ErrorCode::Unsupported,
+            fmt::format("{} is in the layout {}, which is not one of {}.", subject, host.layout,
+                        gpu::has_color(desc.format)
+                            ? "colour: SHADER_READ_ONLY_OPTIMAL, for instance, is"
+                            : "depth and stencil together: depth and stencil must be in "
+                              "one layout, for instance DEPTH_STENCIL_ATTACHMENT_OPTIMAL"));
     }
     texture.handle = reinterpret_cast<VkImage>(host.image);
-    texture.host_layout = static_cast<VkImageLayout>(host.layout);
+    texture.host_layout = layout;
     if (const Status made = make_view(device, texture, texture.aspects, 1, texture.attachment);
         !made) {
         return forward_error(made);
     }
+    return texture;
+}
+
+Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
+                               const HostRenderPass& host) {
+    Texture texture = described(desc);
+    const std::string subject = fmt::format("The host's render pass of {}", texture.subject);
+    if (!gpu::has_stencil(desc.format)) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("{} can only be imported by its depth and stencil, with a "
+                                "depth-stencil format.",
+                                subject));
+    }
+    if (const Status checked = check_import(desc, subject); !checked) {
+        return forward_error(checked);
+    }
+    if (host.render_pass == 0 && !device.adapter.dynamic_rendering) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("{} has a VkRenderPass of VK_NULL_HANDLE, so it is begun by "
+                                "vkCmdBeginRendering(), but HostDevice::enabled_features lacks "
+                                "\"dynamicRendering\".",
+                                subject));
+    }
+    if (host.render_pass == 0 && host.subpass != 0) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("{} is begun by vkCmdBeginRendering(), which knows no subpasses, "
+                                "but its subpass is {}.",
+                                subject, host.subpass));
+    }
+    const std::uint32_t most = device.adapter.caps.limits.max_color_attachments;
+    if (host.color_formats.size() > most) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("{} has {} colour attachments, but the adapter {}.", subject,
+                                host.color_formats.size(), most));
+    }
+    texture.host_pass = host;
     return texture;
 }
 
@@ -215,7 +268,7 @@ void free_texture(Device& device, Memory& memory, Texture& texture) {
                              texture.sampled_stencil}) {
         device.fn.DestroyImageView(device.handle, view, nullptr);
     }
-    if (texture.host_layout) {
+    if (texture.host_layout || texture.host_pass) {
         return;
     }
     device.fn.DestroyImage(device.handle, texture.handle, nullptr);

@@ -56,7 +56,8 @@ public:
     [[nodiscard]] Status prepare(const shadows::DrawList& list, const shadows::HostView& view);
 
     /// Clears the target's stencil to 0, counts the volumes of list.lights[light] in it and submits
-    /// that. Depth and colour are read and left alone.
+    /// that; into a render pass of a Vulkan host's (vk::HostRenderPass) it is recorded, within that.
+    /// Depth is read and left alone, and so are colours.
     [[nodiscard]] Status count(std::size_t light);
 
     [[nodiscard]] const PassStats& stats() const;

@@ -87,7 +87,7 @@ GlHost::~GlHost() {
     gl_.DeleteTextures(static_cast<GLsizei>(masks_.size()), masks_.data());
     gl_.DeleteFramebuffers(1, &framebuffer_);
     gl_.DeleteRenderbuffers(1, &color_);
-    if (way_.kind == gl::HostTarget::Kind::Texture || way_.samples > 1) {
+    if (depth_is_texture()) {
         gl_.DeleteTextures(1, &depth_stencil_);
     } else {
         gl_.DeleteRenderbuffers(1, &depth_stencil_);
@@ -118,9 +118,8 @@ void GlHost::make_framebuffer() {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     gl_.GenRenderbuffers(1, &color_);
     gl_.BindRenderbuffer(GL_RENDERBUFFER, color_);
-    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER,
-                                       way_.samples > 1 ? static_cast<GLsizei>(way_.samples) : 0,
-                                       GL_RGBA8, width, height);
+    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, renderbuffer_samples(), GL_RGBA8, width,
+                                       height);
     gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
     make_depth_stencil(format);
     if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
@@ -131,10 +130,11 @@ void GlHost::make_framebuffer() {
 void GlHost::make_depth_stencil(GLenum format) {
     const auto width = static_cast<GLsizei>(row_width);
     const auto height = static_cast<GLsizei>(row_height);
-    if (way_.kind != gl::HostTarget::Kind::Texture && way_.samples == 1) {
+    if (!depth_is_texture()) {
         gl_.GenRenderbuffers(1, &depth_stencil_);
         gl_.BindRenderbuffer(GL_RENDERBUFFER, depth_stencil_);
-        gl_.RenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+        gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, renderbuffer_samples(), format, width,
+                                           height);
         gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                                     depth_stencil_);
         return;

@@ -65,7 +65,7 @@ struct HostWay {
     gpu::Format format = gpu::Format::Depth24UnormStencil8;
     gl::HostTarget::Kind kind = gl::HostTarget::Kind::Framebuffer;
     double near_m = 0.05;
-    /// With four, depth and stencil are a texture.
+    /// With four, depth and stencil are a texture but for a Renderbuffer.
     std::uint32_t samples = 1;
 };
 
@@ -112,6 +112,13 @@ private:
     void make_program();
     void make_framebuffer();
     void make_depth_stencil(GLenum format);
+    [[nodiscard]] bool depth_is_texture() const {
+        using enum gl::HostTarget::Kind;
+        return way_.kind == Texture || (way_.kind == Framebuffer && way_.samples > 1);
+    }
+    [[nodiscard]] GLsizei renderbuffer_samples() const {
+        return way_.samples > 1 ? static_cast<GLsizei>(way_.samples) : 0;
+    }
     /// Unsigned integers of one sample.
     [[nodiscard]] std::vector<std::uint32_t> fetch_sample(GLuint texture, int sample) const;
     template <class T>

@@ -114,8 +114,8 @@ std::vector<GuestCase> mask_cases() {
 // Mirrored sample places and not.
 std::vector<GuestCase> sample_cases() {
     using enum HostTarget::Kind;
-    const std::string inside = "eye_inside_a_volume";
-    return {{{.name = "plain", .samples = 4}, inside},
+    const std::string row = "hidden_caster";  // quickly traced
+    return {{{.name = "plain", .samples = 4}, row},
             {{.name = "y_down",
               .zero_to_one = true,
               .reversed = true,
@@ -123,9 +123,9 @@ std::vector<GuestCase> sample_cases() {
               .format = gpu::Format::Depth32FloatStencil8,
               .kind = Texture,
               .samples = 4},
-             inside,
+             row,
              {.technique = shadows::Technique::DepthFail}},
-            {{.name = "upper_left", .upper_left = true, .samples = 4}, inside, {}, true}};
+            {{.name = "upper_left", .upper_left = true, .samples = 4}, row, {}, true}};
 }
 
 class GuestInGl : public testing::TestWithParam<GuestCase> {};
@@ -313,6 +313,34 @@ TEST_P(FourSamplesInGl, each_sample_is_the_truth_where_it_lies) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, FourSamplesInGl, testing::ValuesIn(sample_cases()), case_name);
+
+// Whose samples no shader reads, but for the mask's.
+TEST(FourSamplesOfARenderbuffer, are_the_truth_in_a_mask) {
+    auto context = gl::create_osmesa_context();
+    if (!context) GTEST_SKIP() << context.error().message;
+    const GuestCase c{
+        {.name = "renderbuffer", .kind = HostTarget::Kind::Renderbuffer, .samples = 4},
+        "hidden_caster"};
+    GlHost host(std::move(*context), c.way);
+    Guest guest = invite(c, host);
+    const GLuint texture = host.make_mask(GL_R32UI, 4);
+    const auto mask = import_mask(guest.device, texture, gpu::Format::R32Uint, 4);
+    auto masks =
+        must(shadow_pass::LightMasks::create(guest.device, {.host = guest.desc, .masks = {mask}}));
+    host.draw(setting_of(c.row));
+    must(masks.prepare(guest.list, guest.view));
+    must(masks.resolve());
+    std::vector<std::vector<std::vector<std::uint8_t>>> of_lights(guest.list.lights.size());
+    for (int s = 0; s < 4; ++s) {
+        const auto bits = host.read_bits(texture, s);
+        for (std::size_t light = 0; light < of_lights.size(); ++light) {
+            auto& of_sample = of_lights[light].emplace_back();
+            for (const std::uint32_t word : bits) of_sample.push_back(word >> light & 1U);
+        }
+    }
+    expect_true_samples(c.row, of_lights, host.samples_are_mirrored());
+    EXPECT_EQ(host.gl().GetError(), GLenum{GL_NO_ERROR});
+}
 
 }  // namespace
 }  // namespace gnomon::test

@@ -17,6 +17,7 @@ struct Adapter {
     VkPhysicalDeviceProperties properties{};
     VkPhysicalDeviceMemoryProperties memory{};
     VkPhysicalDeviceFeatures enabled{};  ///< what the logical device is made with
+    bool dynamic_rendering = false;      ///< a host's alone: nothing here needs it
     std::vector<const char*> extensions;
     std::uint32_t queue_family = 0;
     std::uint32_t timestamp_bits = 0;  ///< 0: the queue has no timestamps

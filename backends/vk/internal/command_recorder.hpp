@@ -15,9 +15,14 @@ namespace gnomon::vk {
 
 class CommandRecorder {
 public:
-    CommandRecorder(Device& device, RenderPasses& render_passes, Resources& resources,
+    /// `out` is the queue's own, or a host's, which is submitted after the queue's.
+    CommandRecorder(Device& device, RenderPasses& render_passes, Resources& resources, Queue& queue,
                     VkCommandBuffer out)
-        : device_(device), render_passes_(render_passes), resources_(resources), out_(out) {}
+        : device_(device),
+          render_passes_(render_passes),
+          resources_(resources),
+          queue_(queue),
+          out_(out) {}
 
     /// Fails when memory for a render pass or framebuffer runs out; what came before that pass
     /// stays recorded.
@@ -33,8 +38,20 @@ private:
     // Passes (command_recorder_passes.cpp).
     [[nodiscard]] Status begin_pass(const gpu::RenderPassDesc& pass,
                                     std::span<const gpu::Command> commands);
-    void prepare_reads(std::span<const gpu::Command> commands, BarrierBatch& barriers);
-    void prepare_attachment(Texture& texture, Usage usage, BarrierBatch& barriers);
+    [[nodiscard]] Status begin_in_host_pass(const gpu::RenderPassDesc& pass, gpu::TextureId id,
+                                            std::span<const gpu::Command> commands);
+    [[nodiscard]] Status check_in_host_pass(const gpu::RenderPassDesc& pass, gpu::TextureId id,
+                                            std::span<const gpu::Command> commands) const;
+    void clear_in_host_pass(const gpu::DepthStencilAttachment& attachment, const Texture& texture);
+    /// Where barriers of the next pass go: not within a host's render pass, but to the queue, which
+    /// is submitted before.
+    [[nodiscard]] Result<VkCommandBuffer> before_pass();
+    [[nodiscard]] Status prepare_reads(std::span<const gpu::Command> commands,
+                                       BarrierBatch& barriers);
+    /// `written`: all of it, and nothing of what it holds is read.
+    void prepare_attachment(Texture& texture, Usage usage, bool written, BarrierBatch& barriers);
+    /// A host's image, to the layout in which the host has it.
+    void give_back(gpu::TextureId id, BarrierBatch& barriers);
     [[nodiscard]] RenderPassKey describe_attachments(const gpu::RenderPassDesc& pass);
     void note_stores(const gpu::RenderPassDesc& pass);
     void reset_queries(std::span<const gpu::Command> commands);
@@ -65,11 +82,13 @@ private:
     Device& device_;
     RenderPasses& render_passes_;
     Resources& resources_;
+    Queue& queue_;
     VkCommandBuffer out_;
 
     // Of the pass being recorded.
     const gpu::RenderPassDesc* pass_ = nullptr;
     const Pipeline* pipeline_ = nullptr;
+    gpu::TextureId host_pass_;  // of the host's render pass that it is recorded in
     std::array<BoundGroup, gpu::max_bind_groups> groups_{};
     std::uint32_t open_query_ = 0;
 };

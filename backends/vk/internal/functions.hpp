@@ -58,6 +58,7 @@ namespace gnomon::vk {
     X(CmdBindPipeline)                \
     X(CmdBindVertexBuffers)           \
     X(CmdBlitImage)                   \
+    X(CmdClearAttachments)            \
     X(CmdClearColorImage)             \
     X(CmdClearDepthStencilImage)      \
     X(CmdCopyBuffer)                  \

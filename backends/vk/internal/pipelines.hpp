@@ -3,18 +3,37 @@
 // Render pipelines. Viewport, scissor, stencil reference and blend constant are dynamic.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <gnomon/gpu/descriptors.hpp>
+#include <gnomon/vk/host_device.hpp>
 
 #include "internal/render_passes.hpp"
 
 namespace gnomon::vk {
 
+/// A pipeline once more, for a render pass of the host's.
+struct PipelineInHostPass {
+    gpu::TextureId pass;
+    VkPipeline handle = VK_NULL_HANDLE;
+};
+
 struct Pipeline {
     VkPipeline handle = VK_NULL_HANDLE;
+    std::vector<PipelineInHostPass> in_host_passes;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     std::vector<gpu::BindGroupLayoutId> bind_group_layouts;
+
+    /// Null where it was not made for that one.
+    [[nodiscard]] VkPipeline in_host_pass(gpu::TextureId pass) const {
+        for (const PipelineInHostPass& made : in_host_passes) {
+            if (made.pass == pass) {
+                return made.handle;
+            }
+        }
+        return VK_NULL_HANDLE;
+    }
 };
 
 /// The Vulkan objects that a pipeline's descriptor names.
@@ -22,6 +41,12 @@ struct PipelineParts {
     VkShaderModule vertex = VK_NULL_HANDLE;
     VkShaderModule fragment = VK_NULL_HANDLE;  ///< may be null
     std::vector<VkDescriptorSetLayout> set_layouts;
+};
+
+/// A render pass of the host's that was imported.
+struct HostPass {
+    gpu::TextureId id;
+    const HostRenderPass* pass = nullptr;
 };
 
 class PipelineMaker {
@@ -33,11 +58,17 @@ public:
     PipelineMaker& operator=(const PipelineMaker&) = delete;
     [[nodiscard]] Status initialise();
 
+    /// Also for each of `host_passes`, beside whose colours it draws.
     [[nodiscard]] Result<Pipeline> make(const gpu::RenderPipelineDesc& desc,
-                                        const PipelineParts& parts);
+                                        const PipelineParts& parts,
+                                        std::span<const HostPass> host_passes);
+    void free(const Pipeline& pipeline);
 
 private:
     [[nodiscard]] Status check_supported(const gpu::RenderPipelineDesc& desc) const;
+    [[nodiscard]] Status make_in_host_pass(VkGraphicsPipelineCreateInfo info,
+                                           const gpu::RenderPipelineDesc& desc,
+                                           const HostPass& host, Pipeline& pipeline);
 
     Device& device_;
     RenderPasses& render_passes_;

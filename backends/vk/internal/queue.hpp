@@ -36,6 +36,11 @@ public:
     /// The command buffer being recorded; begins one when there is none.
     [[nodiscard]] Result<VkCommandBuffer> commands();
 
+    /// Whether that is it.
+    [[nodiscard]] bool is_recording_to(VkCommandBuffer commands) const {
+        return recording_ && recording_->commands == commands;
+    }
+
     /// Hands what was recorded to the device; does nothing when nothing was. A failure loses
     /// recorded work, so every later call fails as well, with ErrorCode::DeviceLost.
     [[nodiscard]] Status submit(const SubmitSemaphores& semaphores = {});

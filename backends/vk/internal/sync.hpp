@@ -67,6 +67,7 @@ class BarrierBatch {
 public:
     void add_memory(const Dependency& dependency);
     void add_image(const Dependency& dependency, VkImage image, VkImageAspectFlags aspects);
+    [[nodiscard]] bool empty() const { return !any_; }
     /// Records what was gathered, if anything. Not inside a render pass.
     void flush(const DeviceFunctions& fn, VkCommandBuffer commands);
 

@@ -34,6 +34,8 @@ struct Texture {
     Tracker tracker;
     /// Of an image that the host made: the layout that it is in before and after each pass.
     std::optional<VkImageLayout> host_layout = std::nullopt;
+    /// Of the depth and stencil of a host's render pass, which alone knows the image.
+    std::optional<HostRenderPass> host_pass = std::nullopt;
 
     [[nodiscard]] VkImageView sampled(gpu::Aspect aspect) const;
 };
@@ -42,6 +44,8 @@ struct Texture {
                                            const gpu::TextureDesc& desc);
 [[nodiscard]] Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
                                              const HostImage& host);
+[[nodiscard]] Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
+                                             const HostRenderPass& host);
 void free_texture(Device& device, Memory& memory, Texture& texture);
 
 /// Gathers the transition before a use.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <gnomon/gpu/backend.hpp>
 
@@ -70,6 +71,8 @@ private:
     void destroy_now(QuerySet& queries);
     template <class Object>
     void destroy_later(Object object);
+    /// Those that a pipeline may come to be used in.
+    [[nodiscard]] std::vector<HostPass> host_passes_for(const gpu::RenderPipelineDesc& desc);
     void write_descriptors(const BindGroup& group, const BindGroupLayout& layout,
                            const gpu::BindGroupDesc& desc);
 
@@ -83,6 +86,7 @@ private:
     RenderPasses render_passes_;
     PipelineMaker pipeline_maker_;
     Resources resources_;
+    std::vector<gpu::TextureId> host_passes_;  ///< those of textures that a HostRenderPass is for
     VkSampler nearest_sampler_ = VK_NULL_HANDLE;  ///< for textures that are only fetched
     std::unique_ptr<Swapchain> swapchain_;
 };
