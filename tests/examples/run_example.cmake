@@ -1,5 +1,5 @@
 # Script mode: runs PROGRAM in FOLDER, behind the words of LAUNCHER (with bars between) if there are any. It has to exit with
-# 0, print what matches REQUIRED_OUTPUT, print nothing on stderr and leave each of FILES (NAME:BYTES) behind.
+# 0, print what matches REQUIRED_OUTPUT, print nothing on stderr and leave each of FILES (NAME:BYTES, or NAME:PNG) behind.
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
 string(REPLACE "|" ";" LAUNCHER "${LAUNCHER}")
@@ -20,6 +20,13 @@ foreach(file IN LISTS FILES)
   list(GET file 1 bytes)
   if(NOT EXISTS ${FOLDER}/${name})
     message(FATAL_ERROR "${PROGRAM} leaves no ${name} behind")
+  endif()
+  if(bytes STREQUAL "PNG")  # whose size is the compressor's business
+    file(READ ${FOLDER}/${name} signature LIMIT 8 HEX)
+    if(NOT signature STREQUAL "89504e470d0a1a0a")
+      message(FATAL_ERROR "${name} is no PNG: it begins with ${signature}")
+    endif()
+    continue()
   endif()
   file(SIZE ${FOLDER}/${name} size)
   if(NOT size EQUAL bytes)

@@ -15,6 +15,7 @@
 #if GNOMON_HAS_VK
 #include <gnomon/vk/backend.hpp>
 #endif
+#include "examples/09_skeleton_backend.hpp"
 
 /// Read by the leak sanitizer where it is on: Mesa keeps a few hundred bytes for each OSMesa
 /// context for ever. gnomon's own leaks of GL objects are counted by tests/gl/lifetime_test.cpp.
@@ -73,6 +74,17 @@ DeviceCase vk_case(const std::string& adapter) {
 }
 #endif
 
+/// The example of a backend, in front of another one.
+DeviceCase skeleton_case(const DeviceCase& api) {
+    return {.name = "skeleton_" + api.name,
+            .draws = api.draws,
+            .create_backend = [api](gpu::MessageSink sink) -> BackendResult {
+                auto backend = api.create_backend(std::move(sink));
+                if (!backend) return backend;
+                return std::make_unique<skeleton::Backend>(gpu::Device(std::move(*backend)));
+            }};
+}
+
 struct SharedDevice {
     std::unique_ptr<TestDevice> device;
     Error error;
@@ -114,6 +126,14 @@ std::vector<DeviceCase> all_devices() {
     cases.push_back({.name = "null", .draws = false, .create_backend = [](const gpu::MessageSink&) {
                          return BackendResult(gpu::create_null_backend());
                      }});
+    if (std::getenv("GNOMON_TEST_SKELETON") != nullptr) {
+        std::vector<DeviceCase> skeletons;
+        for (const char* name : {"gl_osmesa_separate", "vk", "null"}) {
+            const auto api = std::ranges::find(cases, name, &DeviceCase::name);
+            if (api != cases.end()) skeletons.push_back(skeleton_case(*api));
+        }
+        return skeletons;
+    }
     return cases;
 }
 

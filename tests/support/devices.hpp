@@ -5,7 +5,9 @@
 // GNOMON_REQUIRE_DEVICES names the device (comma-separated, or "all"). Where GNOMON_TEST_ADAPTER is
 // set, the Vulkan adapter with that in its name is the only device that draws: another rasteriser,
 // whose masks differ from Mesa's within the band. Where GNOMON_TEST_GL is "egl", OpenGL is drawn
-// with through EGL alone, on all stencil paths: a graphics card's, beside its Vulkan.
+// with through EGL alone, on all stencil paths: a graphics card's, beside its Vulkan. Where
+// GNOMON_TEST_SKELETON is set, the backend of examples/09_write_a_backend.cpp is tested instead, in
+// front of one OpenGL, Vulkan and the null device.
 #pragma once
 
 #include <gtest/gtest.h>
