@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build play demo test soak bench peers savings report docs install format tidy clean FORCE
+.PHONY: help setup build play demo test soak bench peers savings report docs package install format tidy clean FORCE
 
 help: ## this list
 	@echo "gnomon: exact hard shadows. Targets:"
@@ -84,10 +84,12 @@ report: build ## speed against error of every technique: build/report/report.htm
 	@scripts/report-tables build/report/report.json --document docs/speed-and-error.md
 	@plot=build/report/plots/linz-old-town.gl.png; [ ! -f $$plot ] || cp $$plot docs/images/speed-and-error.png
 
-docs: ## the reference of all public headers and the guides, in build/docs/html
-	@scripts/setup --docs
-	@doxygen docs/Doxyfile
-	@echo "reference: build/docs/html/index.html"
+docs: build/.setup ## the documentation site, guides and reference: build/docs/html/index.html
+	@scripts/site build/docs
+	@echo "site: build/docs/html/index.html"
+
+package: build ## Debian packages, in build/packages
+	@cd build && cpack -B packages
 
 install: build ## install under PREFIX (DESTDIR is respected)
 	@cmake --install build --prefix $(PREFIX)

@@ -13,6 +13,7 @@
 #include <gnomon/gpu/backend.hpp>
 #include <gnomon/gpu/message_sink.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::gl {
 
 /// How front and back faces get their own stencil operations. All three give the same bytes.
@@ -22,6 +23,7 @@ enum class StencilPath {
     TwoPass,   ///< one draw per face, by culling
 };
 
+/// What a backend is made with.
 struct BackendOptions {
     std::optional<StencilPath> stencil_path =
         std::nullopt;  ///< chosen once; default: Separate, else what there is
@@ -30,7 +32,7 @@ struct BackendOptions {
     /// KHR_debug, synchronous. Refused for a context that was adopted, whose callback is the
     /// host's.
     bool debug = false;
-    gpu::MessageSink message_sink = {};
+    gpu::MessageSink message_sink = {};  ///< gets what the driver says; empty: it is lost
 };
 
 /// Takes the context. Fails with ErrorCode::Unsupported, naming what is missing.
@@ -38,3 +40,4 @@ struct BackendOptions {
     std::unique_ptr<Context> context, const BackendOptions& options = {});
 
 }  // namespace gnomon::gl
+#pragma GCC visibility pop

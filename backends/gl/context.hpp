@@ -15,18 +15,23 @@
 
 struct GLFWwindow;
 
+#pragma GCC visibility push(default)
 namespace gnomon::gl {
 
+/// A size in pixels.
 struct Extent {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::uint32_t width = 0;   ///< pixels
+    std::uint32_t height = 0;  ///< pixels
 };
 
+/// An OpenGL context, wherever it came from.
 class Context {
 public:
     virtual ~Context() = default;
 
+    /// Makes it current on this thread.
     virtual Status make_current() = 0;
+    /// A function of OpenGL's; null where there is none.
     [[nodiscard]] virtual void* get_proc_address(const char* name) const = 0;
     [[nodiscard]] virtual std::string description()
         const = 0;  ///< "OSMesa", "EGL surfaceless", "GLFW window"
@@ -37,6 +42,7 @@ public:
     [[nodiscard]] virtual bool restores_state() const { return false; }
     /// Whether a host made it and uses it between two calls.
     [[nodiscard]] virtual bool is_adopted() const { return false; }
+    /// Shows what was drawn; ErrorCode::Unsupported without a window.
     virtual Status swap_buffers() {
         return fail(ErrorCode::Unsupported,
                     "This OpenGL context (" + description() + ") has no window.");
@@ -85,3 +91,4 @@ enum class HostState : std::uint8_t {
 [[nodiscard]] Result<std::unique_ptr<Context>> create_glfw_context(GLFWwindow* window);
 
 }  // namespace gnomon::gl
+#pragma GCC visibility pop

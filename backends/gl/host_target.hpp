@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 
+#pragma GCC visibility push(default)
 namespace gnomon::gl {
 
 /// The TextureDesc beside it says size, format and samples, which are checked, and has the usage
@@ -17,18 +18,21 @@ namespace gnomon::gl {
 /// depth; with these, light masks cannot be resolved. A colour format names a Texture of just that
 /// internal format, with row 0 where the framebuffer has it that the scene is drawn into.
 struct HostTarget {
+    /// What the name names.
     enum class Kind : std::uint8_t {
-        Framebuffer,  ///< with any colour attachments, which are left alone; 0 is the window's
-        Texture,      ///< GL_TEXTURE_2D, or GL_TEXTURE_2D_MULTISAMPLE with several samples
-        Renderbuffer,
+        Framebuffer,   ///< with any colour attachments, which are left alone; 0 is the window's
+        Texture,       ///< GL_TEXTURE_2D, or GL_TEXTURE_2D_MULTISAMPLE with several samples
+        Renderbuffer,  ///< of glGenRenderbuffers
     };
-    Kind kind = Kind::Framebuffer;
-    std::uint32_t name = 0;
-    // What glClipControl() was told when the scene was drawn. Unset: what it was told last before
-    // the import, which is right where that is done as the scene is drawn. Each call of gnomon's
-    // takes it back to OpenGL's defaults with HostState::Defaults.
+    Kind kind = Kind::Framebuffer;  ///< what `name` names
+    std::uint32_t name = 0;         ///< as OpenGL gave it
+    /// What glClipControl() was told of depth when the scene was drawn. Unset: what it was told
+    /// last before the import, which is right where that is done as the scene is drawn. Each call
+    /// of gnomon's takes it back to OpenGL's defaults with HostState::Defaults.
     std::optional<bool> clip_zero_to_one = std::nullopt;
+    /// The same of the origin.
     std::optional<bool> clip_upper_left = std::nullopt;
 };
 
 }  // namespace gnomon::gl
+#pragma GCC visibility pop

@@ -16,22 +16,26 @@
 #include <gnomon/gpu/backend.hpp>
 #include <gnomon/gpu/message_sink.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::vk {
 
+/// A size in pixels.
 struct Extent {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::uint32_t width = 0;   ///< pixels
+    std::uint32_t height = 0;  ///< pixels
 };
 
 /// What the host's window library has to lend. GLFW: glfwGetRequiredInstanceExtensions,
 /// glfwCreateWindowSurface, glfwGetFramebufferSize. Nothing here names a window library.
 struct Window {
-    std::vector<std::string> instance_extensions;
+    std::vector<std::string> instance_extensions;  ///< that its surfaces need
     /// Takes a VkInstance, gives a VkSurfaceKHR (0 when it fails); both as their raw values.
     std::function<std::uint64_t(void* instance)> create_surface;
+    /// in pixels, as it is when called
     std::function<Extent()> framebuffer_size;
 };
 
+/// What a backend is made with.
 struct BackendOptions {
     std::string adapter =
         {};  ///< part of the wanted device's name; default: discrete, integrated, then software
@@ -40,8 +44,8 @@ struct BackendOptions {
     /// "independentBlend", "occlusionQueryPrecise", "sampleRate", "timestamps",
     /// "D32_SFLOAT_S8_UINT", "D24_UNORM_S8_UINT", "sampledStencil".
     std::vector<std::string> disabled_features = {};
-    gpu::MessageSink message_sink = {};
-    std::optional<Window> window = std::nullopt;
+    gpu::MessageSink message_sink = {};           ///< gets what the driver says; empty: it is lost
+    std::optional<Window> window = std::nullopt;  ///< to present in; none: headless
 };
 
 /// Fails with ErrorCode::Unsupported, naming what is missing, or with ErrorCode::InvalidInput when
@@ -50,3 +54,4 @@ struct BackendOptions {
     const BackendOptions& options = {});
 
 }  // namespace gnomon::vk
+#pragma GCC visibility pop

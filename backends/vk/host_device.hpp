@@ -12,6 +12,7 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/gpu/backend.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::vk {
 
 /// All of it stays the host's and outlives the backend.
@@ -23,7 +24,7 @@ struct HostDevice {
     /// VkQueue of `queue_family`, which has graphics. Nobody else submits to it while gnomon is
     /// called.
     void* queue = nullptr;
-    std::uint32_t queue_family = 0;
+    std::uint32_t queue_family = 0;  ///< of `queue`
     /// What the device was made with of VkPhysicalDeviceFeatures, by its names; of use are
     /// "depthClamp" (needed for cameras with a far plane), "depthBounds", "depthBiasClamp",
     /// "independentBlend", "occlusionQueryPrecise" and "sampleRateShading" (needed for four
@@ -44,8 +45,9 @@ struct HostCommands {
     void* command_buffer = nullptr;
 };
 
+/// What adopt_device() gives.
 struct AdoptedDevice {
-    std::unique_ptr<gpu::Backend> backend;
+    std::unique_ptr<gpu::Backend> backend;   ///< for a gpu::Device
     std::shared_ptr<HostCommands> commands;  ///< the host may change it between two calls
 };
 
@@ -85,3 +87,4 @@ struct HostRenderPass {
 };
 
 }  // namespace gnomon::vk
+#pragma GCC visibility pop

@@ -9,6 +9,8 @@
 #include <cstdlib>
 
 #if !defined(NDEBUG) || defined(GNOMON_CHECKED)
+/// States what the caller owes. Where it does not hold and checks are on, prints condition and
+/// place and aborts; where they are off, the condition is not looked at.
 #define GNOMON_EXPECTS(condition)                                                                 \
     ((condition) ? static_cast<void>(0)                                                           \
                  : (std::fprintf(stderr, "%s:%d: expected %s\n", __FILE__, __LINE__, #condition), \

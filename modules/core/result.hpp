@@ -13,6 +13,7 @@
 
 #include <tl/expected.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon {
 
 /// What went wrong, for code that has to act on it. People read Error::message.
@@ -20,15 +21,16 @@ enum class ErrorCode {
     InvalidInput,  ///< bad data: a file, a mesh, an argument
     Validation,    ///< a GPU call that the interface's rules forbid
     Unsupported,   ///< valid, but this adapter or build cannot do it
-    OutOfMemory,
-    DeviceLost,
-    Io,        ///< a file could not be read or written
-    Internal,  ///< the environment broke a promise (driver failure)
+    OutOfMemory,   ///< of the device or of the process
+    DeviceLost,    ///< the device is gone: make a new one
+    Io,            ///< a file could not be read or written
+    Internal,      ///< the environment broke a promise (driver failure)
 };
 
+/// Why something failed.
 struct Error {
-    ErrorCode code = ErrorCode::Internal;
-    std::string message;  ///< one full sentence
+    ErrorCode code = ErrorCode::Internal;  ///< for code that has to act
+    std::string message;                   ///< one full sentence
 };
 
 /// A value or the reason why there is none.
@@ -50,3 +52,4 @@ template <class T>
 }
 
 }  // namespace gnomon
+#pragma GCC visibility pop

@@ -7,16 +7,18 @@
 #include <string>
 #include <string_view>
 
+#pragma GCC visibility push(default)
 namespace gnomon::gpu {
 
+/// What is there. What is not is refused when it is asked for, with ErrorCode::Validation.
 struct Features {
     bool unclipped_depth =
         false;                  ///< depth clamping instead of clipping (WebGPU: depth-clip-control)
     bool depth_bounds = false;  ///< DepthStencilState::depth_bounds_test (not in WebGPU)
-    bool timestamp_query = false;
-    bool occlusion_query = false;  ///< exact sample counts
-    bool depth24unorm_stencil8 = false;
-    bool depth32float_stencil8 = false;
+    bool timestamp_query = false;        ///< TimestampWrites
+    bool occlusion_query = false;        ///< exact sample counts
+    bool depth24unorm_stencil8 = false;  ///< Format::Depth24UnormStencil8
+    bool depth32float_stencil8 = false;  ///< Format::Depth32FloatStencil8
     bool multisample_4 = false;  ///< four samples, per-sample fetch of colour and stencil included
     bool sampled_stencil = false;  ///< a shader may read the stencil aspect
     bool exact_clip_space =
@@ -25,13 +27,14 @@ struct Features {
 
 /// WebGPU's names and units.
 struct Limits {
-    std::uint32_t max_texture_dimension_2d = 0;
-    std::uint32_t max_color_attachments = 0;
-    std::uint32_t max_vertex_buffers = 0;
-    std::uint32_t max_vertex_attributes = 0;
-    std::uint64_t max_buffer_size = 0;
-    std::uint64_t max_uniform_buffer_binding_size = 0;
-    std::uint32_t min_uniform_buffer_offset_alignment = 256;
+    std::uint32_t max_texture_dimension_2d = 0;         ///< texels a side
+    std::uint32_t max_color_attachments = 0;            ///< of one pass
+    std::uint32_t max_vertex_buffers = 0;               ///< of one pipeline
+    std::uint32_t max_vertex_attributes = 0;            ///< of one pipeline
+    std::uint64_t max_buffer_size = 0;                  ///< bytes
+    std::uint64_t max_uniform_buffer_binding_size = 0;  ///< bytes of one binding
+    std::uint32_t min_uniform_buffer_offset_alignment =
+        256;  ///< bytes; of offsets of uniform bindings
     /// Where there are several samples, only scissors that begin at multiples of it, from the left
     /// and from the top, cut exactly (not in WebGPU). 1 but for Mesa's software rasterisers, which
     /// draw samples up to half a pixel outside of others.
@@ -44,13 +47,15 @@ struct Limits {
     return adapter.find("llvmpipe") != std::string_view::npos ? 64 : 1;
 }
 
+/// An adapter: who it is, what it has, how much of it.
 struct Caps {
     std::string backend;  ///< "gl", "vk" or "null"
     std::string adapter;  ///< the driver's own name for itself and its version
     std::string
-        stencil_path;  ///< GL: "two-side", "separate" or "two-pass"; Vulkan and null: "native"
-    Features features;
-    Limits limits;
+        stencil_path;   ///< GL: "two-side", "separate" or "two-pass"; Vulkan and null: "native"
+    Features features;  ///< what it has
+    Limits limits;      ///< how much of it
 };
 
 }  // namespace gnomon::gpu
+#pragma GCC visibility pop

@@ -10,12 +10,14 @@
 
 #include <gnomon/gpu/backend.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::gpu {
 
+/// What fails, and how.
 struct FaultPlan {
-    std::uint64_t fail_at = 0;  ///< 1: the first fallible call; 0: none
-    ErrorCode code = ErrorCode::OutOfMemory;
-    std::uint64_t calls = 0;  ///< counts fallible calls made so far
+    std::uint64_t fail_at = 0;                ///< 1: the first fallible call; 0: none
+    ErrorCode code = ErrorCode::OutOfMemory;  ///< of the failures
+    std::uint64_t calls = 0;                  ///< counts fallible calls made so far
 };
 
 /// The plan may be changed between calls; it must outlive the backend.
@@ -23,3 +25,4 @@ struct FaultPlan {
                                                             FaultPlan& plan);
 
 }  // namespace gnomon::gpu
+#pragma GCC visibility pop

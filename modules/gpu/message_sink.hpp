@@ -8,11 +8,18 @@
 #include <functional>
 #include <string_view>
 
+#pragma GCC visibility push(default)
 namespace gnomon::gpu {
 
-enum class Severity { Info, Warning, Error };
+/// How bad what a driver says is.
+enum class Severity {
+    Info,     ///< nothing to do
+    Warning,  ///< works, but perhaps not as meant, or slowly
+    Error,    ///< a call failed or means nothing
+};
 
 /// Called on the thread that made the GPU call. May be empty: messages are then dropped.
 using MessageSink = std::function<void(Severity, std::string_view message)>;
 
 }  // namespace gnomon::gpu
+#pragma GCC visibility pop

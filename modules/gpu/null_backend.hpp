@@ -9,9 +9,12 @@
 
 #include <gnomon/gpu/backend.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::gpu {
 
+/// What the null device says of itself.
 struct NullBackendOptions {
+    /// All there are.
     Features features = {.unclipped_depth = true,
                          .depth_bounds = true,
                          .timestamp_query = true,
@@ -23,6 +26,8 @@ struct NullBackendOptions {
                          .exact_clip_space = true};
 };
 
+/// Never fails. Cost: nothing; textures and buffers are memory of the process.
 [[nodiscard]] std::unique_ptr<Backend> create_null_backend(const NullBackendOptions& options = {});
 
 }  // namespace gnomon::gpu
+#pragma GCC visibility pop

@@ -8,11 +8,14 @@
 #include <span>
 #include <string_view>
 
+#pragma GCC visibility push(default)
 namespace gnomon::gpu {
 
+/// One shader, twice. Both must say the same.
 struct ShaderSource {
     std::span<const std::uint32_t> spirv;  ///< for Vulkan
     std::string_view glsl;  ///< desktop GLSL 4.30 for GL, made from that SPIR-V by SPIRV-Cross
 };
 
 }  // namespace gnomon::gpu
+#pragma GCC visibility pop

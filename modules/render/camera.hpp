@@ -6,6 +6,7 @@
 #include <gnomon/scene/scene.hpp>
 #include <gnomon/shadows/view.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::render {
 
 /// The view of a camera component at a pose (its scale is taken out). `near_m` > 0 overrides a
@@ -22,3 +23,4 @@ namespace gnomon::render {
                                      const glm::dvec3& up);
 
 }  // namespace gnomon::render
+#pragma GCC visibility pop

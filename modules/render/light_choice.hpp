@@ -10,13 +10,14 @@
 #include <gnomon/scene/scene.hpp>
 #include <gnomon/shadows/view.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::render {
 
 /// All lights of a scene, each in one of two lists, in the order in which ShadowAdapter submits
 /// them.
 struct LightChoice {
-    std::vector<scene::Entity> shadowed;
-    std::vector<scene::Entity> unshadowed;
+    std::vector<scene::Entity> shadowed;    ///< those that cast shadows
+    std::vector<scene::Entity> unshadowed;  ///< the rest
 };
 
 /// At most `most` shadowed lights: those that bring most to where one looks, as H. Y. Kwoon advises
@@ -29,3 +30,4 @@ struct LightChoice {
                                                  const shadows::View& view, std::size_t most);
 
 }  // namespace gnomon::render
+#pragma GCC visibility pop

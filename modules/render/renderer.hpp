@@ -22,6 +22,7 @@
 #include <gnomon/shadows/shadow_system.hpp>
 #include <gnomon/shadows/view.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::render {
 
 /// Debug views, any of them together.
@@ -36,26 +37,30 @@ struct Overlays {
     /// stencil then holds their number.
     bool fill = false;
 
+    /// Whether anything is shown.
     [[nodiscard]] bool any() const {
         return volumes || silhouettes || caps || wireframe || count || fill;
     }
     bool operator==(const Overlays&) const = default;
 };
 
+/// What is drawn into, and what is shown.
 struct RendererDesc {
-    std::uint32_t width = 1280;
-    std::uint32_t height = 720;
+    std::uint32_t width = 1280;      ///< pixels
+    std::uint32_t height = 720;      ///< pixels
     std::uint32_t sample_count = 1;  ///< 1 or 4
-    gpu::Format depth_stencil_format = gpu::Format::Depth32FloatStencil8;
-    shadow_pass::ExtrusionPath extrusion = shadow_pass::ExtrusionPath::VertexShader;
+    gpu::Format depth_stencil_format =
+        gpu::Format::Depth32FloatStencil8;  ///< of the attachment; with a stencil
+    shadow_pass::ExtrusionPath extrusion =
+        shadow_pass::ExtrusionPath::VertexShader;  ///< where far vertices are made
     gpu::Compare volume_depth_compare =
         gpu::Compare::Greater;  ///< for experiments: anything else is wrong here
     /// LeftToShading goes with casters of shadows::NearCaps::Averted: their faces are then shaded
     /// by smooth normals alone, where otherwise light that grazes a triangle fades out.
     shadow_pass::AvertedFaces averted_faces = shadow_pass::AvertedFaces::Shadowed;
     bool cull_back_faces = false;  ///< default: both sides of every triangle go into depth
-    Overlays overlays = {};
-    bool meter_fill = false;  ///< for Renderer::measure_fill()
+    Overlays overlays = {};        ///< debug views
+    bool meter_fill = false;       ///< for Renderer::measure_fill()
     bool operator==(const RendererDesc&) const = default;
 };
 
@@ -70,11 +75,12 @@ struct Environment {
     std::optional<float> exposure = std::nullopt;
 };
 
+/// What one frame is drawn from. All of it is read during render() alone.
 struct FrameInput {
     const scene::Scene&
         scene;  ///< world transforms up to date; upload() has seen its meshes and materials
-    const shadows::View& view;
-    const shadows::DrawList& shadows;
+    const shadows::View& view;         ///< the one that `shadows` was made for
+    const shadows::DrawList& shadows;  ///< what ShadowSystem made of the scene
     /// Called after each light's stencil count is complete (the device has been given the work):
     /// what may be read then is depth_stencil(). The light is named by its place in shadows.lights.
     /// In order; without it, lights whose range the view does not reach are left out.
@@ -82,7 +88,7 @@ struct FrameInput {
     /// Lights that are not in `shadows` and shine all the same, through everything
     /// (choose_shadowed_lights()).
     std::span<const scene::Entity> unshadowed = {};
-    Environment environment = {};
+    Environment environment = {};  ///< what there is without any light
 };
 
 /// Of the last render(), on the CPU.
@@ -94,6 +100,7 @@ struct FrameTimes {
     bool recorded = true;
 };
 
+/// Draws scenes with their shadows.
 class Renderer {
 public:
     /// The device must outlive the renderer.
@@ -127,8 +134,11 @@ public:
     /// The depth-stencil buffer; its stencil holds the count of the last light of
     /// FrameInput::shadows, 0 where that was left out.
     [[nodiscard]] gpu::TextureId depth_stencil() const;
+    /// Of the last render().
     [[nodiscard]] const shadow_pass::PassStats& shadow_stats() const;
+    /// Of the last render().
     [[nodiscard]] FrameTimes times() const;
+    /// As it was created or reconfigured.
     [[nodiscard]] const RendererDesc& desc() const;
 
 private:
@@ -144,3 +154,4 @@ private:
                                                           std::uint32_t sample = 0);
 
 }  // namespace gnomon::render
+#pragma GCC visibility pop

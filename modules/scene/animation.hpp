@@ -19,37 +19,52 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/scene/registry.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
 struct Scene;
 
-enum class Interpolation : std::uint8_t { Step, Linear, CubicSpline };
-enum class AnimationPath : std::uint8_t { Translation, Rotation, Scale, Weights };
+/// What lies between two keys, as glTF has it.
+enum class Interpolation : std::uint8_t {
+    Step,         ///< the earlier key
+    Linear,       ///< a line; for rotations the shorter arc
+    CubicSpline,  ///< a Hermite spline with the keys' tangents
+};
+/// What of a node an animation moves.
+enum class AnimationPath : std::uint8_t {
+    Translation,  ///< LocalTransform::translation
+    Rotation,     ///< LocalTransform::rotation
+    Scale,        ///< LocalTransform::scale
+    Weights,      ///< MorphWeights
+};
 
+/// Keys and values over time.
 struct AnimationSampler {
-    Interpolation interpolation = Interpolation::Linear;
-    std::vector<float> times_s;  ///< at least one, increasing, finite
-    std::size_t width = 0;       ///< numbers a value: 3, 4 (x, y, z, w), or one a morph target
+    Interpolation interpolation = Interpolation::Linear;  ///< between keys
+    std::vector<float> times_s;                           ///< at least one, increasing, finite
+    std::size_t width = 0;  ///< numbers a value: 3, 4 (x, y, z, w), or one a morph target
     /// `width` numbers a key; for cubic splines three times as many: in-tangent, value,
     /// out-tangent.
     std::vector<float> values;
 };
 
+/// What a sampler moves.
 struct AnimationChannel {
-    Entity target;
-    AnimationPath path = AnimationPath::Translation;
-    std::uint32_t sampler = 0;
+    Entity target;                                    ///< whose transform or weights
+    AnimationPath path = AnimationPath::Translation;  ///< which of them
+    std::uint32_t sampler = 0;                        ///< its place among Animation::samplers
 };
 
+/// Channels that play together.
 struct Animation {
-    std::string name;
+    std::string name;         ///< as the file has it; may be empty
     double duration_s = 0.0;  ///< the last key of all its channels
-    std::shared_ptr<const std::vector<AnimationSampler>> samplers;
-    std::vector<AnimationChannel> channels;
+    std::shared_ptr<const std::vector<AnimationSampler>> samplers;  ///< shared by copies
+    std::vector<AnimationChannel> channels;                         ///< in the file's order
     /// A scene may be put together from several models: which of them this one came with, and its
     /// place among the animations of that model.
     std::uint32_t model = 0;
-    std::uint32_t place = 0;
+    std::uint32_t place = 0;  ///< see `model`
 };
 
 /// The value of a sampler: before its first key the first, after its last key the last. Rotations
@@ -70,3 +85,4 @@ void evaluate(const AnimationSampler& sampler, AnimationPath path, double time_s
     const Scene& scene, const std::optional<std::string>& which = std::nullopt);
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/scene/scene.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
 /// Writes Deformed of every instance whose mesh has a deformation and that has a Skin or
@@ -28,3 +29,4 @@ namespace gnomon::scene {
 [[nodiscard]] Status deform(Scene& scene);
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

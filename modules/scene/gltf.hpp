@@ -12,8 +12,10 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/scene/scene.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
+/// What of a file is read.
 struct GltfOptions {
     int scene = -1;  ///< which of the file's scenes; -1: its default, else the first
 };
@@ -35,3 +37,4 @@ struct GltfOptions {
                                      const GltfOptions& options = {});
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

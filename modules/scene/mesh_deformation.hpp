@@ -15,14 +15,15 @@
 
 #include <gnomon/core/result.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
 struct Mesh;
 
 /// A joint (its place in Skin::joints) that moves a vertex.
 struct Influence {
-    std::uint32_t joint = 0;
-    double weight = 0.0;
+    std::uint32_t joint = 0;  ///< which one
+    double weight = 0.0;      ///< 0 .. 1
 
     bool operator==(const Influence&) const = default;
 };
@@ -33,9 +34,10 @@ struct MorphTarget {
     std::vector<glm::vec3> normals;    ///< one a vertex, or none
 };
 
+/// Vertices [first, first + count).
 struct VertexRange {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
+    std::uint32_t first = 0;  ///< the first one
+    std::uint32_t count = 0;  ///< how many
 };
 
 /// Immutable once a mesh has it. Made by make_mesh_deformation().
@@ -45,9 +47,9 @@ struct MeshDeformation {
     /// least one influence, no joint twice, joints in increasing order, and weights that add up to
     /// 1.
     std::vector<std::uint32_t> first_influence;
-    std::vector<Influence> influences;
-    std::uint32_t joint_count = 0;  ///< no influence names a joint from here on
-    std::vector<MorphTarget> targets;
+    std::vector<Influence> influences;    ///< vertex by vertex
+    std::uint32_t joint_count = 0;        ///< no influence names a joint from here on
+    std::vector<MorphTarget> targets;     ///< in the file's order
     std::vector<double> default_weights;  ///< one a target
     /// Vertices that belong to one face each, whose normals are always the face's.
     std::vector<VertexRange> flat;
@@ -55,17 +57,18 @@ struct MeshDeformation {
     /// vertices are at one place in every pose, bit for bit. For MeshView::identities.
     std::vector<std::uint32_t> identities;
 
+    /// Whether joints move it.
     [[nodiscard]] bool is_skinned() const { return !influences.empty(); }
 };
 
 /// What a file or a program has of it.
 struct MeshDeformationSource {
-    std::size_t influences_per_vertex = 0;
-    std::vector<std::uint32_t> joints;  ///< influences_per_vertex a vertex
-    std::vector<float> weights;         ///< as many; a joint of weight 0 does not count
-    std::vector<MorphTarget> targets;
-    std::vector<double> default_weights;  ///< one a target, or none: all zero
-    std::vector<VertexRange> flat;
+    std::size_t influences_per_vertex = 0;  ///< 0 where nothing is skinned
+    std::vector<std::uint32_t> joints;      ///< influences_per_vertex a vertex
+    std::vector<float> weights;             ///< as many; a joint of weight 0 does not count
+    std::vector<MorphTarget> targets;       ///< as MeshDeformation's
+    std::vector<double> default_weights;    ///< one a target, or none: all zero
+    std::vector<VertexRange> flat;          ///< as MeshDeformation's
 };
 
 /// Brings influences into their one form: zero weights dropped, a joint named twice merged, weights
@@ -76,3 +79,4 @@ struct MeshDeformationSource {
     const Mesh& mesh, MeshDeformationSource source);
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

@@ -9,8 +9,10 @@
 
 #include <gnomon/scene/mesh.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
+/// A box about the origin, edges in metres; closed, with the normals of its sides.
 [[nodiscard]] Mesh make_box(const glm::vec3& size, std::uint32_t material = 0);
 /// A UV sphere; slices >= 3 round the axis (+Y), stacks >= 2 from pole to pole.
 [[nodiscard]] Mesh make_sphere(float radius, std::uint32_t slices, std::uint32_t stacks,
@@ -30,3 +32,4 @@ namespace gnomon::scene {
                                  std::uint32_t material = 0);
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

@@ -18,17 +18,20 @@
 
 #include <gnomon/core/expects.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
+/// A thing of a registry: a plain value.
 struct Entity {
-    std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
-    std::uint32_t generation = 0;
+    std::uint32_t index = std::numeric_limits<std::uint32_t>::max();  ///< its place
+    std::uint32_t generation = 0;  ///< tells it from those that had the place before
 
     bool operator==(const Entity&) const = default;
     /// A 64-bit key for gnomon::shadows: unique while the entity lives, never used again after.
     [[nodiscard]] std::uint64_t key() const {
         return (static_cast<std::uint64_t>(generation) << 32U) | index;
     }
+    /// The entity whose key() that is.
     [[nodiscard]] static Entity from_key(std::uint64_t key) {
         return {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U)};
     }
@@ -94,16 +97,20 @@ std::size_t component_id() {
 
 }  // namespace internal
 
+/// Entities and their components. One thread at a time; reading, many.
 class Registry {
 public:
     Registry() = default;
     Registry(Registry&&) noexcept = default;
     Registry& operator=(Registry&&) noexcept = default;
 
+    /// An entity without components.
     [[nodiscard]] Entity create();
     /// Destroys the entity and its components. A stale entity is a caller's bug.
     void destroy(Entity entity);
+    /// Whether it is alive.
     [[nodiscard]] bool valid(Entity entity) const;
+    /// How many are alive.
     [[nodiscard]] std::size_t size() const { return alive_; }
 
     /// Adds a component, replacing one that is there. References stay good until the next emplace
@@ -115,35 +122,41 @@ public:
         if (p.contains(entity.index)) return p.at(entity.index) = T{std::forward<Args>(args)...};
         return p.emplace(entity, std::forward<Args>(args)...);
     }
+    /// Removes a component, where there is one.
     template <class T>
     void remove(Entity entity) {
         GNOMON_EXPECTS(valid(entity));
         pool<T>().remove(entity.index);
     }
+    /// The component, or null where there is none or the entity is gone.
     template <class T>
     [[nodiscard]] T* try_get(Entity entity) {
         if (!valid(entity)) return nullptr;
         auto& p = pool<T>();
         return p.contains(entity.index) ? &p.at(entity.index) : nullptr;
     }
+    /// Likewise.
     template <class T>
     [[nodiscard]] const T* try_get(Entity entity) const {
         if (!valid(entity)) return nullptr;
         const auto* p = find_pool<T>();
         return p != nullptr && p->contains(entity.index) ? &p->at(entity.index) : nullptr;
     }
+    /// The component; that there is none is a caller's bug.
     template <class T>
     [[nodiscard]] T& get(Entity entity) {
         T* found = try_get<T>(entity);
         GNOMON_EXPECTS(found != nullptr);
         return *found;
     }
+    /// Likewise.
     template <class T>
     [[nodiscard]] const T& get(Entity entity) const {
         const T* found = try_get<T>(entity);
         GNOMON_EXPECTS(found != nullptr);
         return *found;
     }
+    /// Whether there is one.
     template <class T>
     [[nodiscard]] bool has(Entity entity) const {
         return try_get<T>(entity) != nullptr;
@@ -162,6 +175,7 @@ public:
             }
         }
     }
+    /// Likewise, for reading.
     template <class First, class... Rest, class Visit>
     void each(Visit&& visit) const {
         const auto* first = find_pool<First>();
@@ -176,6 +190,7 @@ public:
             }
         }
     }
+    /// How many entities have one.
     template <class T>
     [[nodiscard]] std::size_t count() const {
         const auto* p = find_pool<T>();
@@ -204,3 +219,4 @@ private:
 };
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

@@ -15,10 +15,12 @@
 #include <gnomon/scene/mesh.hpp>
 #include <gnomon/scene/registry.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
+/// Everything there is: entities, and what they share.
 struct Scene {
-    Registry registry;
+    Registry registry;  ///< nodes, lights, cameras
     std::vector<Material>
         materials;  ///< at least one once anything is drawn: index 0 is the default
     std::vector<Animation> animations;  ///< played by animate(), animation.hpp
@@ -32,12 +34,18 @@ struct Scene {
 
 /// Smallest axis-aligned box.
 struct Bounds {
+    /// metres; infinite where it is empty
     glm::dvec3 min{std::numeric_limits<double>::infinity()};
+    /// metres; infinite where it is empty
     glm::dvec3 max{-std::numeric_limits<double>::infinity()};
 
+    /// Whether nothing is in it.
     [[nodiscard]] bool empty() const { return !(min.x <= max.x); }
+    /// Its middle; not for an empty one.
     [[nodiscard]] glm::dvec3 center() const { return (min + max) * 0.5; }
+    /// Metres; 0 for an empty one.
     [[nodiscard]] double diagonal() const { return empty() ? 0.0 : glm::length(max - min); }
+    /// Grows so that the point is in it.
     void include(const glm::dvec3& p) {
         min = glm::min(min, p);
         max = glm::max(max, p);
@@ -47,10 +55,10 @@ struct Bounds {
 /// The vertices of an instance as they are drawn and cast shadows: its Deformed, where it has one
 /// of its mesh, else the mesh's own. The triangles are the mesh's either way.
 struct Geometry {
-    std::span<const glm::vec3> positions;
-    std::span<const glm::vec3> normals;
-    glm::dmat4 world_from_positions{1.0};
-    std::uint64_t revision = 0;  ///< Deformed::revision; 0: the mesh's own
+    std::span<const glm::vec3> positions;  ///< metres, relative to world_from_positions
+    std::span<const glm::vec3> normals;    ///< unit, one a position
+    glm::dmat4 world_from_positions{1.0};  ///< affine
+    std::uint64_t revision = 0;            ///< Deformed::revision; 0: the mesh's own
 };
 
 /// The spans live as long as the mesh and the Deformed do and are not written.
@@ -62,3 +70,4 @@ struct Geometry {
 [[nodiscard]] Bounds world_bounds(const Scene& scene);
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

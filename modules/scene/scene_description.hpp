@@ -13,6 +13,7 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/scene/scene.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
 /// Reads a *.scene.json; models it names are looked up beside it. Errors as load_gltf.
@@ -21,7 +22,10 @@ namespace gnomon::scene {
 /// Any scene gnomon can read: .glb, .gltf, .scene.json, or "builtin:NAME".
 [[nodiscard]] Result<Scene> load_scene(const std::string& source);
 
+/// As "builtin:NAME" takes them.
 [[nodiscard]] std::vector<std::string> builtin_scene_names();
+/// Fails with ErrorCode::InvalidInput for a name that is none of them.
 [[nodiscard]] Result<Scene> make_builtin_scene(std::string_view name);
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

@@ -13,12 +13,15 @@
 #include <gnomon/scene/scene.hpp>
 #include <gnomon/shadows/shadow_system.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
 /// The light of an entity as shadows see it, or nothing where it has none. Needs an up-to-date
 /// world transform.
 [[nodiscard]] std::optional<shadows::Light> shadow_light(const Registry& registry, Entity entity);
 
+/// Submits a scene to a shadow system, and remembers the shadow meshes that it made. One thread at
+/// a time.
 class ShadowAdapter {
 public:
     /// Submits every Caster, every light but those of `without_shadow`, and where the system takes
@@ -73,3 +76,4 @@ private:
 };
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

@@ -3,6 +3,7 @@
 
 #include <gnomon/scene/scene.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::scene {
 
 /// Writes WorldTransform of every entity that has a LocalTransform: parents first, whatever the
@@ -11,3 +12,4 @@ namespace gnomon::scene {
 void update_world_transforms(Registry& registry);
 
 }  // namespace gnomon::scene
+#pragma GCC visibility pop

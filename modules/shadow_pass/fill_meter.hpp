@@ -14,6 +14,7 @@
 #include <gnomon/gpu/device.hpp>
 #include <gnomon/shadow_pass/shadow_pass.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadow_pass {
 
 /// Samples, as Fill has them.
@@ -33,3 +34,4 @@ struct LightFill {
                                                         std::span<const std::size_t> lights);
 
 }  // namespace gnomon::shadow_pass
+#pragma GCC visibility pop

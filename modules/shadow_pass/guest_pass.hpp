@@ -24,20 +24,23 @@
 #include <gnomon/shadow_pass/shadow_pass.hpp>
 #include <gnomon/shadows/host_view.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadow_pass {
 
+/// What the guest draws into, and by whose conventions.
 struct GuestPassDesc {
     gpu::TextureId target = {};  ///< the host's depth-stencil, by Device::import_texture()
     TargetSize size = {};        ///< of the target, as it was imported
     gpu::Format format = gpu::Format::Depth24UnormStencil8;  ///< of the target
-    std::uint32_t sample_count = 1;
-    shadows::HostConventions conventions = {};  ///< depth as the target is drawn to
+    std::uint32_t sample_count = 1;                          ///< of the target, 1 or 4
+    shadows::HostConventions conventions = {};               ///< depth as the target is drawn to
     /// For depth that came from shaders of the host's own. None only where they compute positions
     /// by gnomon's function, from a matrix multiplied as it is here (docs/conventions.md, "One
     /// position function").
     CapBias cap_bias = usual_cap_bias;
 };
 
+/// Counts shadow volumes in a host's stencil.
 class GuestPass {
 public:
     /// The device must outlive the pass. Fails as ShadowPass::create() does, with
@@ -56,10 +59,11 @@ public:
     [[nodiscard]] Status prepare(const shadows::DrawList& list, const shadows::HostView& view);
 
     /// Clears the target's stencil to 0, counts the volumes of list.lights[light] in it and submits
-    /// that; into a render pass of a Vulkan host's (vk::HostRenderPass) it is recorded, within that.
-    /// Depth is read and left alone, and so are colours.
+    /// that; into a render pass of a Vulkan host's (vk::HostRenderPass) it is recorded, within
+    /// that. Depth is read and left alone, and so are colours.
     [[nodiscard]] Status count(std::size_t light);
 
+    /// Of the last prepare().
     [[nodiscard]] const PassStats& stats() const;
 
 private:
@@ -69,3 +73,4 @@ private:
 };
 
 }  // namespace gnomon::shadow_pass
+#pragma GCC visibility pop

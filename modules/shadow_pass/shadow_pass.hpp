@@ -27,6 +27,7 @@
 #include <gnomon/shadows/shadow_system.hpp>
 #include <gnomon/shadows/view.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadow_pass {
 
 /// Where far vertices are made.
@@ -55,9 +56,10 @@ enum class AvertedFaces : std::uint8_t {
 /// What may be decided wrongly is a surface that lies between a cap and where the bias moves it,
 /// and nothing else (docs/numerics.md, "Near caps").
 struct CapBias {
-    std::int32_t constant = 0;
-    float slope_scale = 0.0F;
+    std::int32_t constant = 0;  ///< steps of depth
+    float slope_scale = 0.0F;   ///< pixels along the surface
 
+    /// Whether nothing is moved.
     [[nodiscard]] bool none() const { return constant == 0 && slope_scale == 0.0F; }
 };
 
@@ -66,17 +68,19 @@ struct CapBias {
 /// snap to a neighbouring place on the rasteriser's grid, of 1/256 pixel, in x and in y; twice.
 inline constexpr CapBias usual_cap_bias{4, 1.0F / 64.0F};
 
+/// What volumes are drawn into, and how.
 struct ShadowPassDesc {
-    gpu::Format depth_stencil_format = gpu::Format::Depth32FloatStencil8;
+    gpu::Format depth_stencil_format =
+        gpu::Format::Depth32FloatStencil8;  ///< of the attachment; with a stencil
     /// "In front of", strictly: caps lie on surfaces, and equality must count as behind. Less where
     /// a host's depth runs forward.
     gpu::Compare depth_compare = gpu::Compare::Greater;
     /// The clip space of the view that is drawn has depth from -1 to 1 (OpenGL's own), not from 0.
     bool clip_from_minus_one = false;
-    std::uint32_t sample_count = 1;
+    std::uint32_t sample_count = 1;  ///< of the attachments, 1 or 4
     std::vector<gpu::Format> color_formats =
         {};  ///< of the render pass that volumes are drawn in; none is written
-    ExtrusionPath extrusion = ExtrusionPath::VertexShader;
+    ExtrusionPath extrusion = ExtrusionPath::VertexShader;  ///< where far vertices are made
     bool silhouette_lines =
         false;               ///< also uploads silhouette edges as lines, for Part::Silhouettes
     bool cap_parts = false;  ///< also keeps all caps at hand, for Part::Caps
@@ -84,7 +88,7 @@ struct ShadowPassDesc {
     /// CPU, at a cost linear in the mesh each frame: for record_part(), which has nothing of them
     /// otherwise. So it is with ExtrusionPath::Cpu in any case.
     bool expand_quads = false;
-    AvertedFaces averted_faces = AvertedFaces::Shadowed;
+    AvertedFaces averted_faces = AvertedFaces::Shadowed;  ///< what the mask says there
     CapBias cap_bias = {};  ///< both values >= 0; none where depth comes from the shared function
     bool meter = false;     ///< also makes what record_fill() draws with
 };
@@ -98,8 +102,8 @@ enum class Part : std::uint8_t {
 
 /// In pixels; of the whole attachments, which the viewport covers.
 struct TargetSize {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::uint32_t width = 0;   ///< pixels
+    std::uint32_t height = 0;  ///< pixels
     bool operator==(const TargetSize&) const = default;
 };
 
@@ -114,7 +118,7 @@ enum class Fill : std::uint8_t {
 
 /// Of the last prepare().
 struct PassStats {
-    std::uint64_t uploaded_bytes = 0;
+    std::uint64_t uploaded_bytes = 0;       ///< indices, matrices and vertices
     std::uint64_t draw_calls = 0;           ///< that record() makes for all lights together
     std::uint64_t index_bytes_held = 0;     ///< index memory in use
     std::uint64_t hidden_draws = 0;         ///< volumes with empty bounds: not drawn
@@ -122,6 +126,7 @@ struct PassStats {
                                             ///< where the adapter has no depth bounds
 };
 
+/// Turns a draw list into stencil counts within a render pass of the host's.
 class ShadowPass {
 public:
     /// The device must outlive the pass. Fails as the device's create functions do, and with
@@ -150,7 +155,6 @@ public:
     /// (LightDraws::batches). Those are folded in place, by draws that cover the viewport: one a
     /// batch and one more. Where volumes end (LightDraws::clear_background), one more draw sets the
     /// stencil to 0 where depth is what it was cleared to. Leaves pipeline, bind groups 0 and 1,
-    /// stencil to 0 where depth is what it was cleared to. Leaves pipeline, bind groups 0 and 1,
     /// vertex slots 0 and 1, index buffer, stencil reference and, where prepare() was told the
     /// target's size, the scissor changed: it covers the target; depth bounds are 0 .. 1.
     void record(gpu::RenderPassEncoder& encoder, std::size_t light) const;
@@ -167,14 +171,17 @@ public:
     /// ShadowPassDesc::meter. Cost: about that of record(). Leaves changed what record() does.
     void record_fill(gpu::RenderPassEncoder& encoder, std::size_t light, Fill fill) const;
 
-    // For debug views: draws one part of a light's volumes with a pipeline of the caller's, whose
-    // vertex stage is vertex_shader() and whose vertex slots are vertex_layouts(). It reads no bind
-    // group.
+    /// For debug views: draws one part of a light's volumes with a pipeline of the caller's, whose
+    /// vertex stage is vertex_shader() and whose vertex slots are vertex_layouts(). It reads no
+    /// bind group.
     void record_part(gpu::RenderPassEncoder& encoder, std::size_t light, Part part,
                      gpu::RenderPipelineId pipeline) const;
+    /// For pipelines of record_part().
     [[nodiscard]] gpu::ShaderId vertex_shader() const;
+    /// For pipelines of record_part().
     [[nodiscard]] std::vector<gpu::VertexBufferLayout> vertex_layouts() const;
 
+    /// Of the last prepare().
     [[nodiscard]] const PassStats& stats() const;
 
 private:
@@ -184,3 +191,4 @@ private:
 };
 
 }  // namespace gnomon::shadow_pass
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/gpu/device.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadow_pass {
 
 /// `texture`: four samples, TextureUsage::TextureBinding, width x height. One byte a pixel, row 0
@@ -22,3 +23,4 @@ namespace gnomon::shadow_pass {
                                                                  std::uint32_t sample);
 
 }  // namespace gnomon::shadow_pass
+#pragma GCC visibility pop

@@ -16,6 +16,7 @@
 #include <gnomon/shadows/shadow_mesh.hpp>
 #include <gnomon/shadows/silhouette.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// The faces that cast, one bit each: bit f % 64 of word f / 64 is face f. Facing knows no weights
@@ -32,9 +33,9 @@ void pack_weights(std::span<const std::int8_t> weights, CastingFaces& casting);
 
 /// Faces [first, first + count) all weigh `weight`, which is not 0.
 struct FaceRun {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-    std::int32_t weight = 0;
+    std::uint32_t first = 0;  ///< the first face
+    std::uint32_t count = 0;  ///< how many
+    std::int32_t weight = 0;  ///< of each of them
     auto operator<=>(const FaceRun&) const = default;
 };
 
@@ -48,8 +49,8 @@ void weights_of(std::span<const FaceRun> runs, std::span<std::int8_t> weights);
 
 /// What one call of a detector looked at.
 struct DetectionStats {
-    std::uint64_t faces_tested = 0;
-    std::uint64_t edges_tested = 0;
+    std::uint64_t faces_tested = 0;   ///< whose side was asked for
+    std::uint64_t edges_tested = 0;   ///< that were looked at
     std::uint64_t double_tests = 0;   ///< as in FacingStats
     std::uint64_t exact_tests = 0;    ///< as in FacingStats
     std::uint64_t bytes_touched = 0;  ///< of the mesh and of what the detector remembers, about
@@ -64,12 +65,14 @@ enum class Choice : std::uint8_t {
     Jump,             ///< as dual_bvh: the light is new, or goes too far for certificates to pay
     SmallStep,        ///< certificates: the light is still near to where it was
 };
+/// How many values Choice has.
 inline constexpr std::size_t choice_count = 6;
+/// As the statistics name it: "jump", for instance.
 [[nodiscard]] std::string_view to_string(Choice choice);
 
 /// What casts and its boundary: the same for every strategy but for the order of the silhouette.
 struct Detection {
-    CastingFaces casting;
+    CastingFaces casting;                     ///< the faces that cast
     std::vector<SilhouetteEdge> silhouette;   ///< in any order, no edge twice
     std::vector<std::uint8_t> solid_averted;  ///< Facing::solid_averted
     /// A margin as Facing::margin, though maybe a smaller one: how far the light may move from
@@ -77,12 +80,13 @@ struct Detection {
     double margin = 0.0;
     /// False: all but the margin is what the same detector's last call gave, for the same mesh.
     bool changed = true;
-    DetectionStats stats;
+    DetectionStats stats;  ///< what it took
 };
 
 /// One detector, one thread at a time.
 class SilhouetteDetector {
 public:
+    /// Made by SilhouetteStrategy::create.
     SilhouetteDetector() = default;
     SilhouetteDetector(const SilhouetteDetector&) = delete;
     SilhouetteDetector& operator=(const SilhouetteDetector&) = delete;
@@ -109,13 +113,14 @@ enum class QuadFacing : std::uint8_t {
                ///< come out either way
 };
 
+/// A row of the table of strategies.
 struct SilhouetteStrategy {
-    std::string_view name;
-    std::string_view summary;
+    std::string_view name;     ///< as `--silhouette` takes it
+    std::string_view summary;  ///< one sentence for people
     /// A detector works from what it saw of the same pair last, so that each pair of caster and
     /// light wants one of its own. Otherwise one serves all in turn.
     bool keeps_state = false;
-    std::unique_ptr<SilhouetteDetector> (*create)() = nullptr;
+    std::unique_ptr<SilhouetteDetector> (*create)() = nullptr;  ///< makes a detector; never null
     /// Other than None: ShadowSystem asks no detector for the pairs that it leaves to the GPU; the
     /// detector is for the others.
     QuadFacing quads = QuadFacing::None;
@@ -133,3 +138,4 @@ struct SilhouetteStrategy {
 [[nodiscard]] const SilhouetteStrategy* find_strategy(std::string_view name);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

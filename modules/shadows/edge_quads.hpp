@@ -25,12 +25,13 @@
 #include <gnomon/shadows/shadow_mesh.hpp>
 #include <gnomon/shadows/volume.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// An edge between two positions, a the lexicographically smaller one, and its two faces.
 struct EdgeQuad {
-    std::uint32_t a = 0;
-    std::uint32_t b = 0;
+    std::uint32_t a = 0;      ///< a vertex of the mesh
+    std::uint32_t b = 0;      ///< the other one
     std::uint32_t along = 0;  ///< the face that runs a -> b
     std::uint32_t back = 0;   ///< the face that runs b -> a
     auto operator<=>(const EdgeQuad&) const = default;
@@ -45,6 +46,7 @@ struct EdgeQuad {
 
 /// One bit a face: bit f % 32 of word f / 32 says whether face f casts.
 using FaceBits = std::vector<std::uint32_t>;
+/// Whether a face's bit is set.
 [[nodiscard]] inline bool casts(std::span<const std::uint32_t> bits, std::uint32_t face) {
     return (bits[face / 32] >> (face % 32) & 1U) != 0;
 }
@@ -80,10 +82,11 @@ struct QuadCasting {
 /// The vertices of the quads as the shader numbers them: `side_vertices` for each edge, three for
 /// each near cap, three for each far cap.
 struct QuadRanges {
-    std::uint32_t side_vertices = 6;
-    IndexRange sides;
-    IndexRange near_cap;
-    IndexRange far_cap;  ///< empty where all far vertices are one point
+    std::uint32_t side_vertices =
+        6;                ///< of each edge: two triangles, or one where far vertices are one point
+    IndexRange sides;     ///< of all edges
+    IndexRange near_cap;  ///< of all faces
+    IndexRange far_cap;   ///< empty where all far vertices are one point
 };
 /// `one_far_point`: the light is directional and the far vertices are at infinity.
 [[nodiscard]] QuadRanges quad_ranges(const ShadowMesh& mesh, bool one_far_point);
@@ -103,3 +106,4 @@ struct QuadRanges {
                                  NearCaps near_caps, bool one_far_point);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

@@ -13,11 +13,12 @@
 #include <gnomon/shadows/light.hpp>
 #include <gnomon/shadows/shadow_mesh.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// How often each stage of the facing test was needed.
 struct FacingStats {
-    std::uint64_t faces = 0;
+    std::uint64_t faces = 0;         ///< asked about
     std::uint64_t double_tests = 0;  ///< the single-precision filter could not decide
     std::uint64_t exact_tests = 0;   ///< nor could double precision
 };
@@ -36,6 +37,7 @@ enum class NearCaps : std::uint8_t {
     Averted,
 };
 
+/// What classify_faces() says of a mesh and a light.
 struct Facing {
     /// A face's weight: +1 it casts and faces the light, -1 it casts and is turned away, 0 it casts
     /// nothing.
@@ -51,7 +53,7 @@ struct Facing {
     /// The light may move this far in caster space (for a directional light: its unit vector) and
     /// every weight is provably the same. Rounding is allowed for; >= 0.
     double margin = 0.0;
-    FacingStats stats;
+    FacingStats stats;  ///< how it came about
 };
 
 /// The two forms of the single-precision stage: the same operations on the same numbers.
@@ -75,3 +77,4 @@ void classify_faces_flattened(const ShadowMesh& mesh, const glm::dmat4& parent_f
                               const glm::dvec4& light_parent, Facing& out);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

@@ -12,6 +12,7 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/shadows/view.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// What becomes of z / w.
@@ -23,10 +24,11 @@ enum class HostDepth : std::uint8_t {
 
 /// What does not change from frame to frame.
 struct HostConventions {
-    HostDepth depth = HostDepth::MinusOneToOne;
+    HostDepth depth = HostDepth::MinusOneToOne;  ///< the range of z / w
     bool reversed = false;  ///< the greater depth is nearer to the eye, and depth is cleared to 0
 };
 
+/// A host's camera, in gnomon's words and in its own.
 struct HostView {
     /// For ShadowSystem::finish(). Depth is gnomon's (1 near, 0 far). Rows are counted as the
     /// host's framebuffer stores them, so its y is the host's negated.
@@ -34,7 +36,7 @@ struct HostView {
     /// For drawing with vertex stages of gnomon's, which negate y as their last act: clip positions
     /// are then those of the host's matrices.
     View as_drawn;
-    HostConventions conventions;
+    HostConventions conventions;  ///< as they were given
 };
 
 /// Takes a host's matrices. `view_from_world`: rotation and translation, in metres, looking along
@@ -51,3 +53,4 @@ struct HostView {
                                             const HostConventions& conventions);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <functional>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// Runs task(0) … task(count - 1), each once, in any order and on any threads, the caller's
@@ -30,3 +31,4 @@ using Jobs = std::function<void(std::size_t count, const std::function<void(std:
 [[nodiscard]] Jobs thread_jobs(unsigned threads = 0);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

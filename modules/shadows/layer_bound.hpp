@@ -14,12 +14,13 @@
 #include <gnomon/shadows/shadow_mesh.hpp>
 #include <gnomon/shadows/volume.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// The space in which a caster is looked at from its light: its own, or, where its pose is singular
 /// and it has no light of its own, the one that the pose leads to.
 struct LayerSpace {
-    glm::dmat4 space_from_local{1.0};
+    glm::dmat4 space_from_local{1.0};      ///< from the caster's space to this one
     glm::dvec4 light{0.0, 1.0, 0.0, 0.0};  ///< w is 1 or 0, as in Light::position_world
 };
 
@@ -55,7 +56,7 @@ struct LayerSpace {
 
 /// A closed volume of some of the casting faces.
 struct LayerPart {
-    Volume volume;
+    Volume volume;             ///< as build_volume() makes them
     std::uint32_t layers = 0;  ///< its layer_bound()
 };
 
@@ -68,3 +69,4 @@ struct LayerPart {
                                                   const LayerSpace& space, std::uint32_t limit);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// A light of the scene, in world space.
@@ -25,10 +26,12 @@ struct Light {
 /// receives. Facing, extrusion and queries all use it, so that they cannot disagree. w is 1 or 0 as
 /// above.
 struct LightLocal {
-    glm::vec4 position{0.0F, 1.0F, 0.0F, 0.0F};
+    glm::vec4 position{0.0F, 1.0F, 0.0F, 0.0F};  ///< (x, y, z, 1) or (x, y, z, 0)
 
+    /// Whether it is infinitely far away.
     [[nodiscard]] bool is_directional() const { return position.w == 0.0F; }
     bool operator==(const LightLocal&) const = default;
 };
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 
 #include <gnomon/shadows/light.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// The sign (-1, 0, +1) of normal(a, b, c) . (light - a), or of normal . direction for a
@@ -38,3 +39,4 @@ namespace gnomon::shadows {
 [[nodiscard]] bool exactly_collinear(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

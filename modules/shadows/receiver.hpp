@@ -9,8 +9,10 @@
 
 #include <gnomon/shadows/technique.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
+/// A place where surfaces are, in a box.
 struct Receiver {
     std::uint64_t key = 0;  ///< the host's name for it; unique among receivers
     /// Holds all of the surface, as it is drawn. Smaller is better: a terrain had better come in
@@ -53,9 +55,11 @@ struct FillOptions {
     /// less.
     bool cull_by_umbra = true;
 
+    /// All off: volumes are drawn whole.
     [[nodiscard]] static constexpr FillOptions none() {
         return {false, false, false, false, false, false, false};
     }
 };
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

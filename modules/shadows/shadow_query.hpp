@@ -34,12 +34,18 @@
 #include <gnomon/shadows/shadow_system.hpp>
 #include <gnomon/shadows/technique.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// What a light does to a point. OutOfRange: it is farther than the light's range from a point
 /// light; neither lit nor in shadow.
-enum class Exposure : std::uint8_t { Lit, Shadowed, OutOfRange };
+enum class Exposure : std::uint8_t {
+    Lit,         ///< nothing lies between point and light
+    Shadowed,    ///< something does
+    OutOfRange,  ///< the point is beyond the light's range
+};
 
+/// What a question leaves out.
 struct QueryOptions {
     /// Keys of casters that are looked through: those of the character that carries the light
     /// meter. Looked up one by one.
@@ -48,35 +54,39 @@ struct QueryOptions {
 
 /// A part of a segment, by parameters from 0 (its begin) to 1, over which nothing changes.
 struct SegmentPiece {
-    double begin = 0.0;
-    double end = 1.0;
-    Exposure exposure = Exposure::Lit;
+    double begin = 0.0;                 ///< 0 .. 1
+    double end = 1.0;                   ///< 0 .. 1
+    Exposure exposure = Exposure::Lit;  ///< of all of it
 };
 
+/// A body that is asked about.
 struct Sphere {
-    glm::dvec3 center_world{0.0};
-    double radius_m = 1.0;
+    glm::dvec3 center_world{0.0};  ///< metres
+    double radius_m = 1.0;         ///< metres, > 0
 };
 
 /// Shares of a volume, by one point in each of `samples` cells of equal volume that fill it.
 struct VolumeShare {
-    double shadowed = 0.0;
+    double shadowed = 0.0;      ///< 0 .. 1
     double out_of_range = 0.0;  ///< the rest is lit
     /// The share of cells that have a neighbour with another answer, about those that a shadow's
     /// edge passes: an estimate of how far `shadowed` may be off, without a proof.
     double uncertain = 0.0;
-    std::uint32_t samples = 0;
+    std::uint32_t samples = 0;  ///< how many points were asked about
 };
 
 /// What update() did to the tree of casters.
 enum class TreeUpdate : std::uint8_t {
-    Unchanged,
-    Refitted,  ///< casters moved; cost: linear in the casters
-    Rebuilt,   ///< casters came or went, or had moved so far apart that searching took longer
+    Unchanged,  ///< nothing moved; cost: the comparison
+    Refitted,   ///< casters moved; cost: linear in the casters
+    Rebuilt,    ///< casters came or went, or had moved so far apart that searching took longer
 };
 
+/// Answers questions about shadows on the CPU, by the same facing as the volumes. Asking is const:
+/// many threads may ask at a time, none while update() runs.
 class ShadowQueries {
 public:
+    /// Without casters: all is lit.
     ShadowQueries();
     ShadowQueries(ShadowQueries&&) noexcept;
     ShadowQueries& operator=(ShadowQueries&&) noexcept;
@@ -123,6 +133,7 @@ public:
     [[nodiscard]] VolumeShare share_of(const Light& light, const Sphere& sphere,
                                        std::uint32_t cells_per_side = 8,
                                        const QueryOptions& options = {}) const;
+    /// The same of a box with a pose.
     [[nodiscard]] VolumeShare share_of(const Light& light, const OrientedBounds& box,
                                        std::uint32_t cells_per_side = 8,
                                        const QueryOptions& options = {}) const;
@@ -140,3 +151,4 @@ private:
                                 const Light& light, double lift_m = 1e-4);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

@@ -27,6 +27,7 @@
 #include <gnomon/core/expects.hpp>
 #include <gnomon/core/result.hpp>
 #include <gnomon/shadows/detector.hpp>
+#include <gnomon/shadows/draw_list.hpp>
 #include <gnomon/shadows/edge_quads.hpp>
 #include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/jobs.hpp>
@@ -39,12 +40,14 @@
 #include <gnomon/shadows/volume.hpp>
 #include <gnomon/shadows/volume_slab.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
+/// Something that casts shadows, as the host submits it.
 struct Caster {
-    std::uint64_t key = 0;  ///< the host's name for it; unique among casters
-    std::shared_ptr<const ShadowMesh> mesh;
-    glm::dmat4 world_from_local{1.0};  ///< affine
+    std::uint64_t key = 0;                   ///< the host's name for it; unique among casters
+    std::shared_ptr<const ShadowMesh> mesh;  ///< not null; shared by all that have these triangles
+    glm::dmat4 world_from_local{1.0};        ///< affine
     /// Every casting face is in the depth buffer: drawn, unculled, undiscarded. Then depth-pass
     /// needs no near caps.
     bool in_depth_buffer = true;
@@ -52,125 +55,7 @@ struct Caster {
     NearCaps near_caps = NearCaps::Facing;
 };
 
-/// Why a pair's volume is what it is this frame.
-enum class Reason : std::uint8_t {
-    Unchanged,     ///< poses are bit-equal, or differ by the rounding of their own composition:
-                   ///< nothing was detected or built, but caps that the camera now needs
-                   ///< (FrameStats::caps_made)
-    WithinMargin,  ///< moved, but provably less than the silhouette needs to change: nothing was
-                   ///< detected
-    New,           ///< the pair was not there before
-    LightMoved,
-    CasterMoved,
-    BothMoved,
-    MeshChanged,
-    ProjectionChanged,  ///< other far vertices are needed; detected anew as well
-    NearCapsChanged,    ///< Caster::near_caps did; detected anew as well
-    OutOfRange,         ///< the caster is beyond the light's range: no volume
-    OutOfView,          ///< nothing of the shadow can be seen: no volume until it can
-    ReachesNothing,     ///< the shadow reaches no receiver: no volume until it does
-    InUmbra,            ///< the caster lies in another's shadow: no volume until it does not
-    LeftStale,          ///< moved, and StaleOptions allow the silhouette to be out of date
-};
-inline constexpr std::size_t reason_count = 14;
-[[nodiscard]] std::string_view to_string(Reason reason);
-
-/// One volume to draw.
-struct VolumeDraw {
-    std::uint64_t light = 0;
-    std::uint64_t caster = 0;
-    std::shared_ptr<const ShadowMesh> mesh;
-    std::shared_ptr<const Volume> volume;  ///< empty where `quads` are drawn instead
-    /// The silhouette is found on the GPU, from quads on every edge of the mesh: strategies with
-    /// SilhouetteStrategy::quads, for casters that fits_edge_quads(), cast one-sided and are not
-    /// deformed.
-    std::optional<QuadCasting> quads;
-    /// Changes whenever the indices or the bits of `quads` do; unique in the process.
-    std::uint64_t revision = 0;
-    glm::dmat4 world_from_local{1.0};
-    /// Takes the far vertices (p * scale + offset) to the world, homogeneous: the caster's own
-    /// pose, but for singular poses, and where they lie on a plane (FillOptions::clamp).
-    glm::dmat4 world_from_far{1.0};
-    Extrusion extrusion;
-    Technique technique = Technique::DepthFail;
-    bool near_caps = true;  ///< depth-pass: whether near caps must be drawn as well
-    bool far_caps = true;   ///< whether far caps must be, with this technique
-    bool mirrored = false;  ///< the pose turns triangles over: front and back exchange
-    Reason reason = Reason::New;
-    /// Volumes of one light with the same number may be counted together in eight bits.
-    std::uint32_t batch = 0;
-    /// Nothing outside of it changes; where it is empty the volume need not be drawn. All of the
-    /// picture without FillOptions::scissor.
-    ScreenBounds bounds;
-    /// Nothing changes where the depth that is stored lies outside, on a surface. All of it without
-    /// FillOptions::depth_bounds.
-    DepthBounds depth;
-    /// Where not empty, these may be drawn instead of the whole, each with the same triangles,
-    /// technique and extrusion: no receiver that the light reaches lies in what they leave out. The
-    /// whole is as right.
-    std::vector<VolumeSlab> slabs;
-};
-
-/// The volumes of one light: draws[first .. first + count).
-struct LightDraws {
-    std::uint64_t light = 0;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-    /// 1 where no point can lie under more layers than SystemOptions::max_layers. Else draws come
-    /// in batches of at most 127 layers each, volumes that exceed that alone in parts, ascending;
-    /// a point is in shadow where any batch counts.
-    std::uint32_t batches = 1;
-    ScreenBounds bounds = {};  ///< of all its volumes together
-    /// Some of its volumes end behind the last receiver, openly perhaps, others may not: where no
-    /// surface is at all, counts mean nothing, and whoever draws them sets them to 0.
-    bool clear_background = false;
-};
-
-struct FrameStats {
-    std::string_view silhouette;  ///< SystemOptions::silhouette; `choices` has what "auto" chose
-    std::uint64_t casters = 0;
-    std::uint64_t lights = 0;
-    std::uint64_t pairs = 0;
-    /// Without a volume: OutOfRange, OutOfView, ReachesNothing, InUmbra.
-    std::uint64_t pairs_culled = 0;
-    std::uint64_t pairs_hidden = 0;  ///< with a volume that changes nothing in this view
-    /// Of the culled and hidden ones: whose caster lies in another's umbra.
-    std::uint64_t pairs_in_umbra = 0;
-    std::uint64_t pairs_clamped = 0;   ///< of all pairs drawn: far vertices on a plane
-    std::uint64_t pairs_in_slabs = 0;  ///< of those that are seen: VolumeDraw::slabs
-    std::uint64_t pairs_redetected = 0;
-    std::uint64_t pairs_reused = 0;
-    std::uint64_t zpass_pairs = 0;
-    std::uint64_t zfail_pairs = 0;
-    std::uint64_t silhouette_edges = 0;  ///< of all pairs drawn, but for quad_pairs
-    std::uint64_t quad_pairs = 0;  ///< of all pairs drawn: those whose silhouette the GPU finds
-    std::uint64_t stencil_batches = 0;  ///< of all lights; as many as lights with volumes where
-                                        ///< none was split
-    std::uint64_t split_lights = 0;     ///< lights with more than one batch
-    DetectionStats detection;
-    std::array<std::uint64_t, choice_count> choices{};  ///< redetected pairs, by Choice
-    /// Volumes made while none of their caps were drawn (CapOptions::when_drawn), whose caps were
-    /// put together this frame because one is.
-    std::uint64_t caps_made = 0;
-    double detect_ms = 0.0;  ///< facing and silhouettes; of all threads together
-    double build_ms = 0.0;   ///< index ranges, parts included; of all threads together
-    std::array<std::uint64_t, reason_count> reasons{};  ///< pairs, by Reason
-};
-
-/// What to draw this frame: sorted by light key, then caster key; a caster whose volume was split
-/// has a draw for each part. Same input, same list: whatever came before, and however many threads
-/// worked on it; but for volumes with empty bounds, which are kept for when they are seen again,
-/// and for how those caps are put together that none of the draws needs. A copy shares the meshes
-/// and volumes.
-struct DrawList {
-    /// Changes whenever anything in lights or draws does but VolumeDraw::reason; unique in the
-    /// process. 0 for a list that no system made: whoever changes a copy should say so.
-    std::uint64_t revision = 0;
-    std::vector<LightDraws> lights;  ///< every light of the frame, also one without volumes
-    std::vector<VolumeDraw> draws;
-    FrameStats stats;
-};
-
+/// What it means that something is not submitted.
 enum class Submission : std::uint8_t {
     Full,   ///< what is not submitted is gone
     Delta,  ///< what is not submitted is as it was; use remove_caster and remove_light
@@ -190,6 +75,7 @@ struct StaleOptions {
     /// in turn. After H. Y. Kwoon, "The Theory of Stencil Shadow Volumes" (2002).
     std::uint32_t detect_every = 1;
 
+    /// Whether all is exact.
     [[nodiscard]] bool none() const { return pose_tolerance_rad == 0.0 && detect_every == 1; }
 };
 
@@ -204,6 +90,7 @@ enum class LayerBound : std::uint8_t {
     Promised,
 };
 
+/// What a system is made with.
 struct SystemOptions {
     std::optional<Technique> force_technique =
         std::nullopt;                      ///< for every pair, valid or not; for tests and reports
@@ -211,16 +98,16 @@ struct SystemOptions {
     /// A light whose volumes could lay more layers than this over a point is split into batches.
     /// 1 .. 255: what eight bits count. Less is for tests.
     std::uint32_t max_layers = 255;
-    LayerBound layer_bound = LayerBound::Proved;
+    LayerBound layer_bound = LayerBound::Proved;  ///< whether lights are split
     /// Runs the detection and building of pairs that changed. Empty: all on the thread that calls
     /// finish(). That is the default because a library that starts threads unasked competes with
     /// its host's own; thread_jobs() is a runner for hosts without any.
     Jobs jobs = {};
     /// A fan is used for those pairs for which it is exact; the others have faces.
     CapOptions caps = {};
-    Receivers receivers = Receivers::Anywhere;
-    FillOptions fill = {};
-    StaleOptions stale = {};
+    Receivers receivers = Receivers::Anywhere;  ///< whether they are submitted
+    FillOptions fill = {};                      ///< what is left out of volumes
+    StaleOptions stale = {};                    ///< all off: exact
 };
 
 /// What a ShadowSystem holds, in bytes: capacities, without what the allocator adds.
@@ -239,6 +126,8 @@ struct SystemMemory {
     std::uint64_t scratch = 0;  ///< what is reused from frame to frame
 };
 
+/// Turns casters and lights, submitted every frame, into volumes to draw, and works on what changed
+/// alone. One thread at a time.
 class ShadowSystem {
 public:
     /// Fails with ErrorCode::InvalidInput for an unknown strategy name, max_layers beyond 1 .. 255
@@ -255,12 +144,17 @@ public:
         /// come in the order of the last frame, else a look-up and a comparison; the mesh's
         /// reference count is left alone where it is the same mesh.
         void caster(const Caster& caster);
+        /// As caster(): the last of a key counts.
         void light(const Light& light);
+        /// It is gone; nothing happens where it was not there. For Submission::Delta.
         void remove_caster(std::uint64_t key);
+        /// Likewise.
         void remove_light(std::uint64_t key);
         /// The system must have been made with Receivers::Submitted.
         void receiver(const Receiver& receiver);
+        /// Whether receiver() may be called.
         [[nodiscard]] bool takes_receivers() const;
+        /// As remove_caster().
         void remove_receiver(std::uint64_t key);
         /// Detects and builds what changed. A matrix or light that is not finite leaves its pairs
         /// out and is counted as culled. The list is the system's and stands until its next
@@ -278,6 +172,7 @@ public:
         ShadowSystem* system_;
     };
 
+    /// Begins a frame; the one before must be finished or dropped.
     [[nodiscard]] Frame begin_frame(Submission submission = Submission::Full);
 
     /// Cost: linear in pairs and draws.
@@ -290,3 +185,4 @@ private:
 };
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

@@ -10,13 +10,14 @@
 
 #include <gnomon/shadows/shadow_mesh.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// `count` > 0: the weighted faces run from -> to that many times more than back. Always > 0.
 struct SilhouetteEdge {
-    std::uint32_t from = 0;
-    std::uint32_t to = 0;
-    std::int32_t count = 0;
+    std::uint32_t from = 0;  ///< a vertex of the mesh
+    std::uint32_t to = 0;    ///< the other one
+    std::int32_t count = 0;  ///< how often
     auto operator<=>(const SilhouetteEdge&) const = default;
 };
 
@@ -25,3 +26,4 @@ void find_silhouette(const ShadowMesh& mesh, std::span<const std::int8_t> weight
                      std::vector<SilhouetteEdge>& out);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

@@ -13,15 +13,20 @@
 
 #include <gnomon/shadows/view.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
-enum class Technique : std::uint8_t { DepthPass, DepthFail };
+/// How a volume is counted.
+enum class Technique : std::uint8_t {
+    DepthPass,  ///< its faces in front of a surface, after Heidmann (1991)
+    DepthFail,  ///< its faces behind a surface, after Bilodeau and Songy (1999) and Carmack (2000)
+};
 
 /// A box with a pose: a caster's bounds in its own space.
 struct OrientedBounds {
-    glm::dmat4 world_from_local{1.0};
-    glm::dvec3 min{0.0};
-    glm::dvec3 max{0.0};
+    glm::dmat4 world_from_local{1.0};  ///< affine
+    glm::dvec3 min{0.0};               ///< in its own space, metres
+    glm::dvec3 max{0.0};               ///< in its own space, metres
 };
 
 /// Its eight corners in world space; bit 0, 1, 2 of the place says max.x, max.y, max.z.
@@ -36,3 +41,4 @@ struct OrientedBounds {
                                        const View& view);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

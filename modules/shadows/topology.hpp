@@ -10,8 +10,10 @@
 
 #include <gnomon/shadows/shadow_mesh.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
+/// What is wrong with an edge, if anything.
 enum class EdgeKind : std::uint8_t {
     Regular,       ///< two faces that run along it in opposite directions
     Boundary,      ///< one face
@@ -40,3 +42,4 @@ enum class CasterKind : std::uint8_t {
 [[nodiscard]] CasterKind caster_kind(const Component& component);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

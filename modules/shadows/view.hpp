@@ -10,19 +10,23 @@
 
 #include <glm/glm.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
+/// What far vertices have to be like.
 enum class ProjectionKind : std::uint8_t {
     InfinitePerspective,  ///< no far plane: a point at infinity lands at depth exactly 0
-    FinitePerspective,
-    Orthographic,
+    FinitePerspective,    ///< with a far plane
+    Orthographic,         ///< parallel, with a far plane
 };
 
+/// Where a picture is taken from.
 struct View {
     glm::dmat4 view_from_world{1.0};  ///< rigid; the camera looks along -Z
-    glm::dmat4 clip_from_view{1.0};
-    ProjectionKind projection = ProjectionKind::InfinitePerspective;
+    glm::dmat4 clip_from_view{1.0};   ///< clip space as WebGPU has it, depth reversed
+    ProjectionKind projection = ProjectionKind::InfinitePerspective;  ///< that of clip_from_view
 
+    /// Multiplied in double precision.
     [[nodiscard]] glm::dmat4 clip_from_world() const { return clip_from_view * view_from_world; }
 };
 
@@ -42,8 +46,8 @@ struct View {
 [[nodiscard]] glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target,
                                  const glm::dvec3& up);
 
-/// True where triangles that are counter-clockwise as seen by the eye are clockwise on the screen: y
-/// points down, or the world is mirrored. Front and back of what is drawn exchange.
+/// True where triangles that are counter-clockwise as seen by the eye are clockwise on the screen:
+/// y points down, or the world is mirrored. Front and back of what is drawn exchange.
 [[nodiscard]] bool is_mirrored(const View& view);
 
 /// The corners of the near rectangle (depth 1) in world space, in order round it.
@@ -52,3 +56,4 @@ struct View {
 [[nodiscard]] std::array<glm::dvec3, 4> far_corners(const View& view);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

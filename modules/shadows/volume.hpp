@@ -24,24 +24,30 @@
 #include <gnomon/shadows/shadow_mesh.hpp>
 #include <gnomon/shadows/silhouette.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
+/// A piece of a list of indices.
 struct IndexRange {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
+    std::uint32_t first = 0;  ///< its begin
+    std::uint32_t count = 0;  ///< its length
 };
 
 /// Faces [first, first + count) of the mesh.
 struct FaceRange {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
+    std::uint32_t first = 0;  ///< the first face
+    std::uint32_t count = 0;  ///< how many
     auto operator<=>(const FaceRange&) const = default;
 };
 
 /// Where far vertices go. At infinity they are directions (w = 0), which an infinite perspective
 /// draws exactly at depth 0; a finite far plane or an orthographic camera needs them at finite
 /// places. On a plane (FillOptions::clamp) they are finite, and a far cap is flat.
-enum class FarVertices : std::uint8_t { AtInfinity, Finite, OnPlane };
+enum class FarVertices : std::uint8_t {
+    AtInfinity,  ///< directions
+    Finite,      ///< at places behind all that is seen
+    OnPlane,     ///< on a plane behind the last receiver
+};
 
 /// What closes a volume at its far vertices.
 enum class FarCap : std::uint8_t {
@@ -55,7 +61,7 @@ enum class FarCap : std::uint8_t {
 
 /// How caps are put together. The counts are the same whatever is chosen.
 struct CapOptions {
-    FarCap far_cap = FarCap::Faces;
+    FarCap far_cap = FarCap::Faces;  ///< what closes the volume
     /// A range, which is a draw call or two, is taken to cost as much as the indices of so many
     /// faces. Ranges are chosen so that the sum is least.
     std::uint32_t draw_worth_faces = 512;
@@ -79,15 +85,17 @@ struct CapOptions {
                 .draw_worth_faces = 0,
                 .max_ranges = std::numeric_limits<std::uint32_t>::max()};
     }
+    /// Whether these are ranges_alone().
     [[nodiscard]] constexpr bool are_ranges_alone() const {
         return draw_worth_faces == 0 && max_ranges == std::numeric_limits<std::uint32_t>::max();
     }
 };
 
+/// What else decides which triangles a volume has.
 struct VolumeOptions {
-    bool directional = false;
-    FarVertices far_vertices = FarVertices::AtInfinity;
-    CapOptions caps = {};
+    bool directional = false;                            ///< the light is
+    FarVertices far_vertices = FarVertices::AtInfinity;  ///< where they go
+    CapOptions caps = {};                                ///< how caps are put together
 
     /// All far vertices are one point: a side is one triangle and there is no far cap.
     [[nodiscard]] bool one_far_point() const {
@@ -108,32 +116,38 @@ struct CapList {
 
 /// Near caps that are drawn once more as far caps, with 1 added to each index and front and back
 /// the other way round. What is undone counts as written out.
-enum class FarCopies : std::uint8_t { None, OfRanges, OfAll };
+enum class FarCopies : std::uint8_t {
+    None,      ///< none is
+    OfRanges,  ///< what lies in ranges is
+    OfAll,     ///< all are
+};
 
 /// Triangles, counter-clockwise from outside the volume where nothing else is said. `indices` has
 /// far_cap, sides, the triples of near_cap, near_cap_flipped and near_cap_averted, and what is
 /// undone of each of them, one after the other. for_each_triangle() has all of it put together.
 struct Volume {
-    std::vector<std::uint32_t> indices;
-    std::vector<FaceRange> ranges;  ///< of all near caps, list by list
+    std::vector<std::uint32_t> indices;  ///< 2v: vertex v of the mesh; 2v + 1: its far vertex
+    std::vector<FaceRange> ranges;       ///< of all near caps, list by list
     /// The part of the far cap that is written out: a fan, or the far caps of all that is written
     /// out where that is little. The rest is in `far_copies`.
     IndexRange far_cap;
-    FarCopies far_copies = FarCopies::None;
-    IndexRange sides;
+    FarCopies far_copies = FarCopies::None;  ///< near caps that are far caps as well
+    IndexRange sides;          ///< in `indices`: side quads, two triangles each, or one
     CapList near_cap;          ///< of positive weight
     CapList near_cap_flipped;  ///< of negative weight: drawn with front and back exchanged
     /// As near_cap_flipped, of solids that cast with their averted faces (NearCaps::Averted). Every
     /// other near cap lies on a surface that light may reach.
     CapList near_cap_averted;
-    std::uint32_t silhouette_edges = 0;
-    VolumeOptions made_with;
+    std::uint32_t silhouette_edges = 0;  ///< each once
+    VolumeOptions made_with;             ///< what it was made with
 
     /// Nothing casts.
     [[nodiscard]] bool empty() const { return indices.empty() && ranges.empty(); }
+    /// All three lists.
     [[nodiscard]] std::array<CapList, 3> near_caps() const {
         return {near_cap, near_cap_flipped, near_cap_averted};
     }
+    /// Written out or copied.
     [[nodiscard]] bool has_far_cap() const {
         return far_cap.count > 0 || far_copies != FarCopies::None;
     }
@@ -248,8 +262,8 @@ void for_each_triangle(const ShadowMesh& mesh, const Volume& volume, Visit&& vis
 
 /// The far vertex of position p is (p * scale + offset.xyz, offset.w), in the caster's space.
 struct Extrusion {
-    float scale = 1.0F;
-    glm::vec4 offset{0.0F};
+    float scale = 1.0F;      ///< of the position
+    glm::vec4 offset{0.0F};  ///< added to it; w is the far vertex's
 };
 
 /// Far vertices at infinity: (p * L.w - L.xyz, 0).
@@ -263,3 +277,4 @@ void extrude(std::span<const glm::vec3> positions, const Extrusion& extrusion,
              std::vector<glm::vec4>& far_vertices);
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

@@ -8,6 +8,7 @@
 
 #include <gnomon/shadows/screen_bounds.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadows {
 
 /// What of a volume lies between two planes across the light's way, or the caster and a plane.
@@ -19,9 +20,10 @@ struct VolumeSlab {
     glm::dmat4 world_from_far{1.0};
     bool from_plane = false;  ///< near caps lie on a plane, where no surface is
     bool near_caps = true;    ///< depth-pass: whether near caps must be drawn as well
-    bool far_caps = true;
-    ScreenBounds bounds;  ///< VolumeDraw::bounds in its place; not empty
+    bool far_caps = true;     ///< whether far caps must be drawn
+    ScreenBounds bounds;      ///< VolumeDraw::bounds in its place; not empty
     bool operator==(const VolumeSlab&) const = default;
 };
 
 }  // namespace gnomon::shadows
+#pragma GCC visibility pop

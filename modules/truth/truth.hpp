@@ -14,7 +14,8 @@
 //  2. Each such piece sends a beam to the light. If no caster enters it, the piece is lit. If
 //     triangles that join along shared edges fill it without a boundary, it is in shadow. Else its
 //     answer changes somewhere inside.
-//  3. If all the pieces say the same, that is the verdict; but not where an edge that a volume begins
+//  3. If all the pieces say the same, that is the verdict; but not where an edge that a volume
+//  begins
 //     at enters the beam, for there a shadow's boundary passes too, whatever else lies over it.
 //
 // All of it in double precision. Where single precision must fail, the pixel is in the band as
@@ -40,39 +41,42 @@
 #include <gnomon/shadows/light.hpp>
 #include <gnomon/shadows/view.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::truth {
 
 /// One posed mesh. The spans must outlive the tracer's build, not the tracer.
 struct Instance {
-    std::span<const glm::vec3> positions;
-    std::span<const std::uint32_t> indices;
-    glm::dmat4 world_from_local{1.0};
-    bool casts = true;     ///< shadow rays hit it
-    bool receives = true;  ///< primary rays hit it
+    std::span<const glm::vec3> positions;    ///< metres, in the instance's space
+    std::span<const std::uint32_t> indices;  ///< three a triangle
+    glm::dmat4 world_from_local{1.0};        ///< affine
+    bool casts = true;                       ///< shadow rays hit it
+    bool receives = true;                    ///< primary rays hit it
 };
 
+/// What is traced.
 struct Options {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::uint32_t width = 0;      ///< pixels
+    std::uint32_t height = 0;     ///< pixels
     double band_px = 1.0 / 16.0;  ///< at least 1/1000 is used
     /// Which places inside a pixel are judged: (0.5, 0.5) for the centre; a sample's place for
     /// MSAA.
     glm::dvec2 sample_position{0.5, 0.5};
 };
 
+/// What is true of a pixel.
 enum class Verdict : std::uint8_t {
     Unjudged,  ///< nothing there, averted from the light (seen and lit from opposite sides), or out
                ///< of the light's range
     Band,      ///< within band_px of a change of the answer
-    Lit,
-    Shadowed,
+    Lit,       ///< all of it that may be seen is lit
+    Shadowed,  ///< all of it is in shadow
 };
 
 /// The truth for one light: a verdict a pixel, row 0 on top.
 struct Picture {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<Verdict> verdicts;
+    std::uint32_t width = 0;        ///< pixels
+    std::uint32_t height = 0;       ///< pixels
+    std::vector<Verdict> verdicts;  ///< of each pixel
     /// What is true of the pixels' centres alone, within 1/1000 pixel: the verdict, but where that
     /// is Band. Band here: the answer changes at the very centre, or single precision cannot tell.
     /// Empty in a picture that was made by hand: then the band is undecided.
@@ -83,10 +87,10 @@ struct Picture {
 /// Its second half takes the band in, where a rasteriser may rightly differ: by what is true of the
 /// pixels' centres. That is the half that compares techniques.
 struct Judgement {
-    std::uint64_t pixels = 0;
-    std::uint64_t lit = 0;       ///< judged pixels that are truly lit
-    std::uint64_t shadowed = 0;  ///< judged pixels that are truly in shadow
-    std::uint64_t band = 0;
+    std::uint64_t pixels = 0;                 ///< all there are
+    std::uint64_t lit = 0;                    ///< judged pixels that are truly lit
+    std::uint64_t shadowed = 0;               ///< judged pixels that are truly in shadow
+    std::uint64_t band = 0;                   ///< pixels within the band
     std::uint64_t false_shadow = 0;           ///< judged, lit in truth, not in the mask
     std::uint64_t false_light = 0;            ///< judged, in shadow in truth, not in the mask
     std::vector<std::uint32_t> wrong_pixels;  ///< indices y * width + x, at most 1000
@@ -105,7 +109,9 @@ struct Judgement {
     /// Infinite where the truth has no such pixel: a shadow where there is none.
     double edge_displacement_px = 0.0;
 
+    /// Pixels whose answer is certain.
     [[nodiscard]] std::uint64_t judged() const { return lit + shadowed; }
+    /// Of them, those that the mask gets wrong.
     [[nodiscard]] std::uint64_t wrong() const { return false_shadow + false_light; }
     /// Pixels that are wrong at all, against truth without a band.
     [[nodiscard]] std::uint64_t wrong_at_all() const {
@@ -124,6 +130,7 @@ struct Judgement {
     Judgement& operator+=(const Judgement& other);
 };
 
+/// Casters and receivers, ready to be traced. Immutable: many threads may trace.
 class Tracer {
 public:
     /// `origin`: a point near the camera; everything is traced relative to it, so that scenes far
@@ -158,3 +165,4 @@ private:
 [[nodiscard]] std::vector<Instance> instances_of(const scene::Scene& scene);
 
 }  // namespace gnomon::truth
+#pragma GCC visibility pop
