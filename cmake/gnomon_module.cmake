@@ -16,6 +16,18 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
+# Shared libraries find each other, and programs find them, wherever the prefix was moved to.
+if(BUILD_SHARED_LIBS AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_INSTALL_RPATH)
+  file(RELATIVE_PATH libraries_from_programs ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${libraries_from_programs}")
+endif()
+
+# Of shared libraries: what is compatible with what (docs/compatibility.md). Before 1.0 that is a minor version.
+set(GNOMON_SOVERSION ${PROJECT_VERSION_MAJOR})
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(GNOMON_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+endif()
+
 option(GNOMON_CHECKED "A caller's bug aborts with a sentence in optimised builds too (gnomon/core/expects.hpp)" OFF)
 
 add_library(gnomon_compile_options INTERFACE)
@@ -56,11 +68,16 @@ if(GNOMON_FUZZ)
   target_compile_options(gnomon_compile_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# gnomon_add_library(<name> SOURCES ... [PUBLIC deps...] [PRIVATE deps...])
+# gnomon_add_library(<name> [INTERNAL] SOURCES ... [PUBLIC deps...] [PRIVATE deps...])
 # makes target gnomon_<name>, alias gnomon::<name>, from the folder that calls it. Its public headers are the
-# folder's *.hpp files, reached as <gnomon/<name>/file.hpp>; what lies in internal/ is not installed.
+# folder's *.hpp files, reached as <gnomon/<name>/file.hpp>; what lies in internal/ is not installed. INTERNAL: it serves the
+# programs and is no part of the package.
 function(gnomon_add_library name)
-  cmake_parse_arguments(ARG "" "FOLDER" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "INTERNAL" "FOLDER" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(kind)
+  if(ARG_INTERNAL)
+    set(kind STATIC)
+  endif()
   if(NOT ARG_FOLDER)
     set(ARG_FOLDER ${name})
   endif()
@@ -68,7 +85,7 @@ function(gnomon_add_library name)
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${GNOMON_INCLUDE_ROOT}/gnomon/${ARG_FOLDER} SYMBOLIC)
 
   if(ARG_SOURCES)
-    add_library(gnomon_${name} ${ARG_SOURCES})
+    add_library(gnomon_${name} ${kind} ${ARG_SOURCES})
     target_include_directories(gnomon_${name} PUBLIC
       $<BUILD_INTERFACE:${GNOMON_INCLUDE_ROOT}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     # For sources in folders below, which name the module's internal headers as those beside them do.
@@ -77,6 +94,13 @@ function(gnomon_add_library name)
     target_link_libraries(gnomon_${name} PRIVATE $<BUILD_INTERFACE:gnomon_compile_options>)
     target_link_libraries(gnomon_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
     set_target_properties(gnomon_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    if(BUILD_SHARED_LIBS AND NOT ARG_INTERNAL)
+      # What public headers declare is seen from outside (gnomon/core/export.hpp), nothing else. The tests look inside.
+      set_target_properties(gnomon_${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${GNOMON_SOVERSION})
+      if(NOT GNOMON_TESTS)
+        set_target_properties(gnomon_${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+      endif()
+    endif()
   else()
     add_library(gnomon_${name} INTERFACE)
     target_include_directories(gnomon_${name} INTERFACE
@@ -87,7 +111,9 @@ function(gnomon_add_library name)
   add_library(gnomon::${name} ALIAS gnomon_${name})
   set_target_properties(gnomon_${name} PROPERTIES EXPORT_NAME ${name}
     GNOMON_FOLDER ${ARG_FOLDER} GNOMON_HEADERS ${CMAKE_CURRENT_SOURCE_DIR})
-  set(GNOMON_LIBRARIES ${GNOMON_LIBRARIES} gnomon_${name} CACHE INTERNAL "")
+  if(NOT ARG_INTERNAL)
+    set(GNOMON_LIBRARIES ${GNOMON_LIBRARIES} gnomon_${name} CACHE INTERNAL "")
+  endif()
 endfunction()
 
 # gnomon_add_shaders(<target> <name> <file>...)

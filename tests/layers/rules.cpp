@@ -286,6 +286,31 @@ std::vector<Violation> check_licence_lines(std::span<const SourceFile> tree) {
     return found;
 }
 
+std::vector<Violation> check_visibility(std::span<const SourceFile> tree) {
+    constexpr std::array<std::string_view, 9> installed{
+        "modules/core/",        "modules/shadows/", "modules/gpu/",
+        "modules/shadow_pass/", "modules/scene/",   "modules/render/",
+        "backends/gl/",         "backends/vk/",     "modules/truth/"};
+    std::vector<Violation> found;
+    for (const SourceFile& file : tree) {
+        const auto folder = std::ranges::find_if(
+            installed, [&](std::string_view f) { return file.path.starts_with(f); });
+        if (folder == installed.end() || !is_header(file.path)) continue;
+        if (file.path.find('/', folder->size()) != std::string::npos) continue;  // not public
+        const std::size_t begin = file.text.find("\nnamespace gnomon");
+        if (begin == std::string::npos) continue;  // macros alone
+        const std::size_t end = file.text.rfind("}  // namespace gnomon");
+        const std::size_t push = file.text.find("\n#pragma GCC visibility push(default)\n");
+        const std::size_t pop = file.text.find("\n#pragma GCC visibility pop\n");
+        if (push > begin || pop == std::string::npos || pop < end) {
+            found.push_back(file.path +
+                            " does not have its namespace between #pragma GCC visibility "
+                            "push(default) and pop, so a shared library would hide it.");
+        }
+    }
+    return found;
+}
+
 std::vector<Violation> check_machine_paths(std::span<const SourceFile> tree) {
     // Put together here so that this file does not hold what it looks for.
     std::vector<std::string> folders;

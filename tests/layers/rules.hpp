@@ -26,6 +26,8 @@ using Violation = std::string;
 [[nodiscard]] std::vector<Violation> check_lengths(std::span<const SourceFile> tree);
 /// C++ files begin with the licence line.
 [[nodiscard]] std::vector<Violation> check_licence_lines(std::span<const SourceFile> tree);
+/// Public headers of what is installed say that shared libraries show what they declare.
+[[nodiscard]] std::vector<Violation> check_visibility(std::span<const SourceFile> tree);
 /// No text names a folder that exists on one machine only.
 [[nodiscard]] std::vector<Violation> check_machine_paths(std::span<const SourceFile> tree);
 

@@ -188,6 +188,20 @@ TEST(LicenceLines, ComeFirst) {
                 ElementsAre(HasSubstr("b.hpp does not"), HasSubstr("c.cpp does not")));
 }
 
+TEST(Visibility, IsSaidInPublicHeadersOfWhatIsInstalled) {
+    const std::string body = "\nnamespace gnomon::gpu {\n}  // namespace gnomon::gpu\n";
+    const std::vector<SourceFile> tree{
+        {"modules/gpu/good.hpp", "#pragma once\n#pragma GCC visibility push(default)" + body +
+                                     "#pragma GCC visibility pop\n"},
+        {"modules/gpu/bare.hpp", body},
+        {"backends/gl/open.hpp", "\n#pragma GCC visibility push(default)" + body},
+        {"modules/core/macro.hpp", "#define X\n"},
+        {"modules/gpu/internal/a.hpp", body},
+        {"modules/sun/position.hpp", body}};
+    EXPECT_THAT(check_visibility(tree),
+                ElementsAre(HasSubstr("gpu/bare.hpp"), HasSubstr("gl/open.hpp")));
+}
+
 TEST(MachinePaths, AreFoundWhereverTheyStand) {
     const std::string slash = "/";
     const std::vector<SourceFile> tree{

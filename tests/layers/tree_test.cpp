@@ -38,6 +38,9 @@ TEST_F(Repository, OneFileChoosesTheBackend) {
 }
 TEST_F(Repository, FilesAreShort) { EXPECT_THAT(check_lengths(tree_), IsEmpty()); }
 TEST_F(Repository, FilesNameTheirLicence) { EXPECT_THAT(check_licence_lines(tree_), IsEmpty()); }
+TEST_F(Repository, PublicHeadersAreSeenFromOutside) {
+    EXPECT_THAT(check_visibility(tree_), IsEmpty());
+}
 TEST_F(Repository, NamesNoMachine) { EXPECT_THAT(check_machine_paths(tree_), IsEmpty()); }
 
 }  // namespace

@@ -2,11 +2,13 @@
 //
 // Which of our contexts is current on this thread. Mesa's OSMesa, EGL and GLX share one dispatch
 // table per thread, and each believes that its own context stays current until told otherwise: so
-// whoever takes over has to release the one before through the very library that bound it.
+// whoever takes over has to release the one before through the very library that bound it. Shared
+// libraries show it, though it is not public: gnomon::gl_glfw is a library of its own.
 #pragma once
 
 #include <gnomon/core/result.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::gl {
 
 /// What a context file provides; the rest of the rules live in current_context.cpp.
@@ -32,3 +34,4 @@ private:
 };
 
 }  // namespace gnomon::gl
+#pragma GCC visibility pop
