@@ -74,6 +74,9 @@ public:
                           const gpu::NativeTexture& native) override {
         return textures_.put(id, api_.import_texture(desc, native));
     }
+    [[nodiscard]] gpu::ClipDepth clip_depth(gpu::TextureId id) const override {
+        return api_.clip_depth_of(textures_[id]);
+    }
     Status create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& desc) override {
         return samplers_.put(id, api_.create_sampler(desc));
     }

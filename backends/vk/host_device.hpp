@@ -80,7 +80,7 @@ struct HostRenderPass {
     /// VkRenderPass that is begun, or one compatible with it, alive for as long as the import; 0:
     /// vkCmdBeginRendering().
     std::uint64_t render_pass = 0;
-    std::uint32_t subpass = 0;
+    std::uint32_t subpass = 0;  ///< of `render_pass`
     /// VkFormat of each colour attachment, in order, VK_FORMAT_UNDEFINED for one that is not used.
     /// None is written. With a VkRenderPass only their number is looked at.
     std::vector<std::uint32_t> color_formats = {};

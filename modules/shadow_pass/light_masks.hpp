@@ -27,8 +27,10 @@
 #include <gnomon/shadow_pass/guest_pass.hpp>
 #include <gnomon/shadows/host_view.hpp>
 
+#pragma GCC visibility push(default)
 namespace gnomon::shadow_pass {
 
+/// What volumes are counted against, and where the masks go.
 struct LightMasksDesc {
     /// Where volumes are counted: depth, which is read, and a stencil, which is 0 afterwards. On
     /// OpenGL a texture, a renderbuffer or a framebuffer object that has one, not the window's; on
@@ -44,6 +46,7 @@ struct LightMasksDesc {
     std::vector<gpu::TextureId> masks = {};
 };
 
+/// Puts the shadows of many lights into textures that the host samples. One thread at a time.
 class LightMasks {
 public:
     /// In one resolve().
@@ -69,6 +72,7 @@ public:
     /// more lights than masks hold, in rounds.
     [[nodiscard]] Status resolve(std::size_t first, std::size_t count);
 
+    /// Of the last prepare().
     [[nodiscard]] const PassStats& stats() const;
 
 private:
@@ -78,3 +82,4 @@ private:
 };
 
 }  // namespace gnomon::shadow_pass
+#pragma GCC visibility pop

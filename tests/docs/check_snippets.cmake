@@ -1,6 +1,6 @@
 # Script mode: every block of C++ in DOCUMENTS compiles (but for blocks that show an example, which compare_readme.cmake
 # holds against it). A block becomes the body of a function in a struct that inherits contexts::NAME of contexts.hpp, NAME being
-# the document's; "…", for what a guide leaves out, becomes {}. All of it is one source, and nothing but its syntax is checked.
+# the document's; "…", for what a guide leaves out, becomes {}, or nothing at a list's end. All of it is one source, and nothing but its syntax is checked.
 cmake_minimum_required(VERSION 3.25)
 string(REPLACE "," ";" DOCUMENTS "${DOCUMENTS}")
 string(REPLACE "," ";" INCLUDES "${INCLUDES}")
@@ -32,7 +32,8 @@ foreach(document IN LISTS DOCUMENTS)
     math(EXPR line "${line} + ${breaks} + 1")
     if(NOT before MATCHES "<!-- examples/[a-z0-9_]+\\.cpp -->\n$")
       math(EXPR count "${count} + 1")
-      string(REPLACE "…" "{}" body "${block}")
+      string(REPLACE ", …}" "}" body "${block}")
+      string(REPLACE "…" "{}" body "${body}")
       string(APPEND source "struct Block${count} : contexts::${name} { void run() {\n"
         "#line ${line} \"${document}\"\n${body}\n} };\n")
     endif()

@@ -18,6 +18,7 @@
 #include <gnomon/gl/backend.hpp>
 #include <gnomon/gl/host_target.hpp>
 #include <gnomon/shadow_pass/guest_pass.hpp>
+#include <gnomon/shadow_pass/light_masks.hpp>
 #include <gnomon/shadows/facing.hpp>
 #include <gnomon/shadows/shadow_query.hpp>
 #include <gnomon/shadows/silhouette.hpp>
@@ -65,9 +66,20 @@ struct embedding {
     std::uint64_t image;
     std::uint32_t layout;
     shadows::HostConventions conventions;
+    std::uint32_t texture;
+    void* commands;
+    static constexpr std::uint32_t VK_FORMAT_B8G8R8A8_SRGB = 50;
+    static void vkCmdBeginRendering(void*, std::nullptr_t);
+    static void vkCmdEndRendering(void*);
     // What the blocks before have made.
+    gpu::Device& device;
+    Result<gpu::Texture>& target;
     Result<shadows::ShadowSystem>& system;
     Result<shadow_pass::GuestPass>& pass;
+    Result<vk::AdoptedDevice>& adopted;
+    const shadows::DrawList& list;
+    Result<shadows::HostView>& view;
+    std::size_t light;
 };
 
 /// Of docs/ten-minutes.md; as there, `must` ends the program.
