@@ -55,7 +55,7 @@ const std::vector<Layer>& layers() {
         {"sun_study",
          {"modules/sun_study/"},
          {"sun", "shadows", "shadow_pass", "gpu"},
-         {"glm/", "tl/", "fmt/"}},
+         {"glm/", "tl/", "fmt/", "gnomon_shaders/sun_study.hpp"}},
         {"input", {"modules/input/"}, {"core"}, {"glm/", "tl/", "fmt/"}},
         {"ui",
          {"modules/ui/"},

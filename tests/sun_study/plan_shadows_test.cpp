@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -144,12 +143,18 @@ TEST_P(PlanShadowsTest, DoNotDependOnTheSunBefore) {
     EXPECT_GT(reused, 0U);
 }
 
-TEST_P(PlanShadowsTest, RefuseGridsThatNoTextureHolds) {
-    const std::uint32_t limit = device().caps().limits.max_texture_dimension_2d;
-    const PlanGrid grid = must(make_grid({0.0, 0.0}, {limit + 1.0, 1.0}, 1.0, 0.0, limit + 1));
-    const auto refused = PlanShadows::create(device(), test::site(), grid);
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, testing::HasSubstr(std::to_string(limit)));
+TEST_P(PlanShadowsTest, DrawLargeGridsInTiles) {
+    const PlanGrid grid = test::site_grid();
+    const std::vector<shadows::Caster> casters = test::site();
+    const glm::dvec3 sun = sun::towards_sun(121.0 * degree, 24.0 * degree);
+    auto tiled = must(PlanShadows::create(device(), casters, grid, {.most_cells_a_side = 48}));
+    const PlanMask mask = must(tiled.lit(sun));
+    const PlanMask whole = must(must(PlanShadows::create(device(), casters, grid)).lit(sun));
+    const std::vector<bool> off = test::cells_off_edges(casters, grid, sun);
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        if (!off[i]) continue;
+        ASSERT_EQ(mask[i], whole[i]) << "cell " << i;
+    }
 }
 
 }  // namespace

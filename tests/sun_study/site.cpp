@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include <gnomon/scene/primitives.hpp>
+#include <gnomon/sun_study/plan_scan.hpp>
 
 namespace gnomon::sun_study::test {
 
@@ -72,6 +73,22 @@ std::vector<shadows::Caster> site(const glm::dvec3& shift) {
             caster_of(3, fence(12.0, 1.8, 9), shift + glm::dvec3(2.1, -9.3, 0.0)),
             caster_of(4, scene::make_torus(2.0F, 0.4F, 24, 12), shift + glm::dvec3(-9.0, 3.0, 4.1)),
             caster_of(5, scene::make_cylinder(0.15F, 7.0F, 8), shift + glm::dvec3(9.7, 5.2, 3.5))};
+}
+
+std::vector<bool> cells_off_edges(std::span<const shadows::Caster> casters, const PlanGrid& grid,
+                                  const glm::dvec3& sun) {
+    std::vector<int> lit(grid.cell_count());
+    for (const int x : {-1, 0, 1}) {
+        for (const int y : {-1, 0, 1}) {
+            PlanGrid moved = grid;
+            moved.min_m += glm::dvec2(x, y) * (grid.cell_m / 16.0);
+            const std::vector<PlanMask> masks = PlanScan(casters, moved).lit(std::span(&sun, 1));
+            for (std::size_t i = 0; i < lit.size(); ++i) lit[i] += masks.front()[i];
+        }
+    }
+    std::vector<bool> off(lit.size());
+    for (std::size_t i = 0; i < lit.size(); ++i) off[i] = lit[i] % 9 == 0;
+    return off;
 }
 
 PlanGrid site_grid(const glm::dvec3& shift) {

@@ -7,7 +7,7 @@
 
 #include <gnomon/scene/mesh.hpp>
 #include <gnomon/shadows/shadow_system.hpp>
-#include <gnomon/sun_study/plan_shadows.hpp>
+#include <gnomon/sun_study/plan_grid.hpp>
 
 namespace gnomon::sun_study::test {
 
@@ -24,6 +24,11 @@ namespace gnomon::sun_study::test {
 
 /// A closed house: walls and a gable along x.
 [[nodiscard]] scene::Mesh house(double width_m, double depth_m, double eaves_m, double ridge_m);
+
+/// Cells that two ways of drawing must agree about, by the way that is exact: those with one answer
+/// in nine places within 1/16 of a cell of their centres.
+[[nodiscard]] std::vector<bool> cells_off_edges(std::span<const shadows::Caster> casters,
+                                                const PlanGrid& grid, const glm::dvec3& sun);
 
 /// Of the site, of 0.25 m cells.
 [[nodiscard]] PlanGrid site_grid(const glm::dvec3& shift_plan = glm::dvec3(0.0));

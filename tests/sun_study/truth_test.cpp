@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Plan grids against ray-traced truth: equal but for cells that a shadow's edge passes, for a site
-// with a house, open sheets and holes, for a city, and far from the origin.
+// Plan grids against ray-traced truth, by volumes, by projection and by the scan: equal but for
+// cells that a shadow's edge passes, for a site with a house, open sheets and holes, for a city,
+// and far from the origin.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -10,6 +11,8 @@
 #include <gnomon/scene/shadow_adapter.hpp>
 #include <gnomon/scene/transforms.hpp>
 #include <gnomon/sun/position.hpp>
+#include <gnomon/sun_study/plan_projection.hpp>
+#include <gnomon/sun_study/plan_scan.hpp>
 #include <gnomon/sun_study/plan_shadows.hpp>
 #include <gnomon/truth/truth.hpp>
 
@@ -76,6 +79,17 @@ truth::Judgement judge(const truth::Picture& truth, const PlanMask& lit) {
     return truth::judge(truth, dark);
 }
 
+// The scan is held to what is true of the centres alone, within 1/1000 of a cell.
+std::size_t scanned_wrong(const truth::Picture& truth, const PlanMask& lit) {
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        const truth::Verdict verdict = truth.centres[i];
+        if (verdict != truth::Verdict::Lit && verdict != truth::Verdict::Shadowed) continue;
+        wrong += (verdict == truth::Verdict::Lit) != (lit[i] != 0) ? 1 : 0;
+    }
+    return wrong;
+}
+
 // From straight above, the side of a volume that begins at an upright edge is a line, and at what
 // depth an eye ray on that line meets it is for rounding to say (plan_shadows.hpp).
 bool is_on_a_side_seen_edge_on(const std::vector<shadows::Caster>& casters, const glm::dvec2& at,
@@ -126,9 +140,17 @@ TEST_P(PlanTruth, HasTheSiteRightButForEdges) {
     const PlanGrid grid = test::site_grid();
     const TracedPlan traced(test::site(), grid);
     auto shadows = must(PlanShadows::create(device(), test::site(), grid));
+    auto projection = must(PlanProjection::create(device(), test::site(), grid));
+    const std::vector<PlanMask> projected = must(projection.lit(suns()));
+    const std::vector<PlanMask> scanned = PlanScan(test::site(), grid).lit(suns());
     truth::Judgement all;
-    for (const glm::dvec3& sun : suns()) {
-        const truth::Judgement one = judge(traced.trace(sun), must(shadows.lit(sun)));
+    for (std::size_t i = 0; i < suns().size(); ++i) {
+        const glm::dvec3& sun = suns()[i];
+        const truth::Picture truth = traced.trace(sun);
+        EXPECT_EQ(judge(truth, projected[i]).wrong(), 0U);
+        EXPECT_EQ(judge(truth, scanned[i]).wrong(), 0U);
+        EXPECT_EQ(scanned_wrong(truth, scanned[i]), 0U);
+        const truth::Judgement one = judge(truth, must(shadows.lit(sun)));
         EXPECT_EQ(wrong_without_excuse(one, test::site(), grid, sun), 0U);
         EXPECT_GT(one.shadowed, 300U);
         EXPECT_GT(one.lit, 300U);
@@ -152,6 +174,10 @@ TEST_P(PlanTruth, IsTheSameInGeoreferencedCoordinates) {
     const PlanMask mask_here = must(here.lit(sun));
     const truth::Picture truth = traced.trace(sun);
     EXPECT_EQ(judge(truth, mask).wrong(), 0U);
+    auto projection = must(PlanProjection::create(device(), test::site(shift), grid));
+    EXPECT_EQ(judge(truth, must(projection.lit(std::span(&sun, 1))).front()).wrong(), 0U);
+    const PlanMask scanned = PlanScan(test::site(shift), grid).lit(std::span(&sun, 1)).front();
+    EXPECT_EQ(scanned_wrong(truth, scanned), 0U);
     for (std::size_t i = 0; i < mask.size(); ++i) {
         if (truth.verdicts[i] == truth::Verdict::Band) continue;
         ASSERT_EQ(mask[i], mask_here[i]) << i;
@@ -169,9 +195,17 @@ TEST_P(PlanTruth, HasAPieceOfACityRightButForEdges) {
     const PlanGrid grid = must(make_grid({-100.0, -80.0}, {100.0, 80.0}, 1.0, 0.1, 4096));
     const TracedPlan traced(casters, grid);
     auto shadows = must(PlanShadows::create(device(), casters, grid));
+    auto projection = must(PlanProjection::create(device(), casters, grid));
+    PlanScan scan(casters, grid);
     for (const glm::dvec3& sun : {suns()[1], suns()[2]}) {
-        const truth::Judgement judged = judge(traced.trace(sun), must(shadows.lit(sun)));
+        const truth::Picture truth = traced.trace(sun);
+        const truth::Judgement judged = judge(truth, must(shadows.lit(sun)));
         EXPECT_EQ(judged.wrong(), 0U);
+        const std::span one(&sun, 1);
+        EXPECT_EQ(judge(truth, must(projection.lit(one)).front()).wrong(), 0U);
+        const PlanMask scanned = scan.lit(one).front();
+        EXPECT_EQ(judge(truth, scanned).wrong(), 0U);
+        EXPECT_EQ(scanned_wrong(truth, scanned), 0U);
         EXPECT_GT(judged.lit, 1000U);
         EXPECT_GT(judged.shadowed, 1000U);
     }

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <gnomon/scene/primitives.hpp>
+#include <gnomon/sun/position.hpp>
+#include <gnomon/sun_study/plan_scan.hpp>
+
+#include "tests/sun_study/site.hpp"
+#include "tests/support/devices.hpp"
+
+namespace gnomon::sun_study {
+namespace {
+
+using gnomon::test::must;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+PlanMask scanned(const std::vector<shadows::Caster>& casters, const PlanGrid& grid,
+                 const glm::dvec3& sun) {
+    return PlanScan(casters, grid).lit(std::span(&sun, 1)).front();
+}
+
+// The area that an upright box's shadow covers: the box's foot, swept by the shadow of its top.
+bool is_in_the_shadow_of_a_box(const glm::dvec2& at, const glm::dvec2& half, const glm::dvec2& tip,
+                               double slack) {
+    double begin = 0.0;
+    double end = 1.0;
+    for (int i = 0; i < 2; ++i) {
+        const double a = (at[i] - half[i] - slack) / tip[i];
+        const double b = (at[i] + half[i] + slack) / tip[i];
+        begin = std::max(begin, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+    }
+    return begin <= end;
+}
+
+TEST(PlanScan, CastsABoxExactly) {
+    const PlanGrid grid = must(make_grid({-20.0, -15.0}, {20.0, 15.0}, 0.25, 0.0, 4096));
+    const glm::dvec2 half(2.0, 3.0);
+    const std::vector<shadows::Caster> box{
+        test::caster_of(1, scene::make_box({4.0F, 5.0F, 6.0F}), {0.0, 0.0, 2.5})};
+    for (const double azimuth : {100.0, 135.5, 181.0, 263.0}) {
+        for (const double altitude : {12.0, 33.0, 71.0}) {
+            const glm::dvec3 sun = sun::towards_sun(azimuth * degree, altitude * degree);
+            const glm::dvec2 tip = glm::dvec2(sun) * (-5.0 / sun.z);
+            const PlanMask mask = scanned(box, grid, sun);
+            std::ptrdiff_t dark = 0;
+            for (std::size_t i = 0; i < mask.size(); ++i) {
+                const glm::dvec2 at = grid.center_m(static_cast<std::uint32_t>(i % grid.columns),
+                                                    static_cast<std::uint32_t>(i / grid.columns));
+                const bool inside = is_in_the_shadow_of_a_box(at, half, tip, -1e-6);
+                const bool about = is_in_the_shadow_of_a_box(at, half, tip, 1e-6);
+                if (inside == about) {
+                    ASSERT_EQ(mask[i], inside ? 0 : 1)
+                        << at.x << ", " << at.y << " at " << azimuth << ", " << altitude;
+                }
+                dark += inside ? 1 : 0;
+            }
+            EXPECT_GT(dark, 300);
+        }
+    }
+}
+
+TEST(PlanScan, OfTheZenithAreTheCellsUnderSomething) {
+    const PlanGrid grid = must(make_grid({-10.0, -10.0}, {10.0, 10.0}, 1.0, 0.125, 4096));
+    const PlanMask open =
+        scanned({test::caster_of(1, scene::make_box({4.0F, 5.0F, 6.0F}), {0.0, 0.0, 2.5})}, grid,
+                {0.0, 0.0, 1.0});
+    EXPECT_EQ(std::count(open.begin(), open.end(), 0), 4 * 6);
+    EXPECT_EQ(open[std::size_t{7} * 20 + 8], 0);
+    EXPECT_EQ(open[std::size_t{6} * 20 + 8], 1);
+}
+
+// Every inner edge of the sheet runs through centres of cells.
+TEST(PlanScan, LeavesNoCrackWhereEdgesRunThroughCentres) {
+    scene::Mesh sheet;
+    constexpr std::uint32_t side = 12;
+    for (std::uint32_t j = 0; j <= side; ++j) {
+        for (std::uint32_t i = 0; i <= side; ++i) {
+            sheet.positions.emplace_back(glm::dvec3(i - 6.0, 0.0, j - 6.0));
+        }
+    }
+    for (std::uint32_t j = 0; j < side; ++j) {
+        for (std::uint32_t i = 0; i < side; ++i) {
+            const std::uint32_t a = j * (side + 1) + i;
+            for (const std::uint32_t k :
+                 {a, a + side + 1, a + 1, a + 1, a + side + 1, a + side + 2}) {
+                sheet.indices.push_back(k);
+            }
+        }
+    }
+    const PlanGrid grid = must(make_grid({-10.5, -10.5}, {10.5, 10.5}, 1.0, 0.0, 4096));
+    for (const glm::dvec3& sun : {glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(0.6, 0.0, 0.8),
+                                  glm::dvec3(-1.0, 2.0, 1.0), glm::dvec3(0.3, 0.3, 0.9)}) {
+        for (const double height : {1.0, 2.0}) {
+            const glm::dvec2 middle = glm::dvec2(sun) * (-height / sun.z);
+            const PlanMask mask =
+                scanned({test::caster_of(1, sheet, {0.0, 0.0, height})}, grid, sun);
+            for (std::size_t i = 0; i < mask.size(); ++i) {
+                const glm::dvec2 to =
+                    glm::abs(grid.center_m(static_cast<std::uint32_t>(i % grid.columns),
+                                           static_cast<std::uint32_t>(i / grid.columns)) -
+                             middle);
+                const double farthest = std::max(to.x, to.y);
+                if (std::abs(farthest - 6.0) < 1e-6) continue;
+                EXPECT_EQ(mask[i], farthest > 6.0 ? 1 : 0) << i;
+            }
+        }
+    }
+}
+
+// Which faces cast is a matter of closedness, sides and poses, and changes nothing that is seen.
+TEST(PlanScan, CastsTheSameInsideOutMirroredOrWithBothSides) {
+    const PlanGrid grid = test::site_grid();
+    const glm::dvec3 sun = sun::towards_sun(143.0 * degree, 27.0 * degree);
+    const auto with = [&](auto&& change) {
+        scene::Mesh torus = scene::make_torus(4.0F, 1.5F, 24, 12);
+        change(torus);
+        return test::caster_of(1, torus, {0.3, 0.2, 4.1});
+    };
+    const PlanMask plain = scanned({with([](scene::Mesh&) {})}, grid, sun);
+    EXPECT_GT(std::count(plain.begin(), plain.end(), 0), 300);
+    const auto turn = [](scene::Mesh& mesh) {
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            std::swap(mesh.indices[i], mesh.indices[i + 1]);
+        }
+    };
+    EXPECT_EQ(scanned({with(turn)}, grid, sun), plain);
+    const auto open = [](scene::Mesh& mesh) {
+        for (int i = 0; i < 3; ++i)
+            mesh.indices.push_back(mesh.indices[static_cast<std::size_t>(i)]);
+    };
+    EXPECT_EQ(scanned({with(open)}, grid, sun), plain);
+    // Mirrored twice: in the mesh and in its pose.
+    shadows::Caster mirrored = with([](scene::Mesh& mesh) {
+        for (glm::vec3& at : mesh.positions) at.x = -at.x;
+    });
+    mirrored.world_from_local[0] *= -1.0;
+    EXPECT_EQ(scanned({mirrored}, grid, sun), plain);
+}
+
+// A house that stands in the ground casts what is above it, and the ground under it is in shadow.
+TEST(PlanScan, CutsOffWhatIsBelowThePlane) {
+    const PlanGrid grid = must(make_grid({-16.0, -13.0}, {16.0, 13.0}, 0.25, 0.05, 4096));
+    const glm::dvec3 sun = sun::towards_sun(201.0 * degree, 31.0 * degree);
+    const scene::Mesh low = test::house(9.0, 7.0, 5.0, 8.0);
+    scene::Mesh deep = low;
+    for (std::size_t i = 0; i < 4; ++i) deep.positions[i].y -= 30.0F;  // its floor
+    const PlanMask mask = scanned({test::caster_of(1, low, glm::dvec3(0.0))}, grid, sun);
+    EXPECT_EQ(scanned({test::caster_of(1, deep, glm::dvec3(0.0))}, grid, sun), mask);
+    EXPECT_GT(std::count(mask.begin(), mask.end(), 0), 1000);
+    const PlanMask none = scanned({test::caster_of(1, low, {0.0, 0.0, -8.0})}, grid, sun);
+    EXPECT_EQ(std::count(none.begin(), none.end(), 0), 0);
+}
+
+// Shadows of hundreds of kilometres: what is on the grid is right, and takes no longer.
+TEST(PlanScan, TakesASunOnTheHorizon) {
+    const PlanGrid grid = must(make_grid({-100.0, -20.0}, {0.0, 20.0}, 0.5, 0.0, 4096));
+    const std::vector<shadows::Caster> box{
+        test::caster_of(1, scene::make_box({2.0F, 30.0F, 6.0F}), {4.0, 0.0, 15.0})};
+    for (const double altitude : {1e-3, 1e-7}) {
+        const PlanMask mask =
+            scanned(box, grid, sun::towards_sun(90.0 * degree, altitude * degree));
+        for (std::uint32_t row = 0; row < grid.rows; ++row) {
+            const bool dark = std::abs(grid.center_m(0, row).y) < 3.0;
+            const auto begin = mask.begin() + std::ptrdiff_t{row} * grid.columns;
+            EXPECT_EQ(std::count(begin, begin + grid.columns, 0), dark ? grid.columns : 0) << row;
+        }
+    }
+}
+
+TEST(PlanScan, IsTheSameOnAnyThreads) {
+    const PlanGrid grid = must(make_grid({-15.0, -13.0}, {15.0, 13.0}, 0.23, 0.05, 4096));
+    std::vector<glm::dvec3> suns;
+    for (int i = 0; i < 9; ++i) {
+        suns.push_back(sun::towards_sun((100.0 + 17.0 * i) * degree, (10.0 + 4.0 * i) * degree));
+    }
+    PlanScan threaded(test::site(), grid, shadows::thread_jobs(4));
+    const std::vector<PlanMask> masks = threaded.lit(suns);
+    ASSERT_EQ(masks.size(), suns.size());
+    for (std::size_t i = 0; i < suns.size(); ++i) {
+        EXPECT_EQ(masks[i], scanned(test::site(), grid, suns[i])) << i;
+    }
+    EXPECT_TRUE(threaded.lit({}).empty());
+}
+
+}  // namespace
+}  // namespace gnomon::sun_study
