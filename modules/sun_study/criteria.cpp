@@ -73,6 +73,9 @@ std::string objection_to(const Rule& rule, const sun::Date& date, std::span<cons
         return fmt::format("The rule is for a day between 1 February and 21 March; this is {}.",
                            sun::to_text(date));
     }
+    if (std::ranges::none_of(steps, &Step::counts)) {
+        return "The sun counts at no step: there is nothing to judge.";
+    }
     if (ends_in_daylight(steps)) {
         return "The sun is up at the first or at the last step: the rule is for the whole day.";
     }

@@ -9,7 +9,8 @@
 namespace gnomon::sun_study {
 
 Result<PlanGrid> make_grid(const glm::dvec2& min_m, const glm::dvec2& max_m, double cell_m,
-                           double height_m, std::uint32_t most_cells_a_side) {
+                           double height_m, std::uint32_t most_cells_a_side,
+                           std::uint64_t most_cells) {
     const glm::dvec2 size = max_m - min_m;
     if (!std::isfinite(size.x + size.y + cell_m + height_m)) {
         return fail(ErrorCode::InvalidInput, "The grid's area, height or cell size is not finite.");
@@ -37,6 +38,12 @@ Result<PlanGrid> make_grid(const glm::dvec2& min_m, const glm::dvec2& max_m, dou
                     fmt::format("The grid of {:.0f} x {:.0f} cells is larger than {} a side, the "
                                 "most at a time; larger cells or a smaller area fit.",
                                 cells.x, cells.y, most_cells_a_side));
+    }
+    if (cells.x * cells.y > static_cast<double>(most_cells)) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("The grid of {:.0f} x {:.0f} cells has more than {}, the most at a "
+                                "time; larger cells or a smaller area fit.",
+                                cells.x, cells.y, most_cells));
     }
     PlanGrid grid;
     grid.min_m = min_m;

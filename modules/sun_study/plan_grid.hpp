@@ -35,11 +35,12 @@ struct PlanGrid {
 
 /// The cells that cover an area: whole cells, from its lower left corner on. Fails with
 /// ErrorCode::InvalidInput, and one sentence, for an area or a cell without a size, for what is not
-/// finite, for more than `most_cells_a_side`, and for cells so far from zero that double precision
-/// does not tell their edges apart.
+/// finite, for more than `most_cells_a_side` or `most_cells` in all, and for cells so far from zero
+/// that double precision does not tell their edges apart.
 [[nodiscard]] Result<PlanGrid> make_grid(const glm::dvec2& min_m, const glm::dvec2& max_m,
                                          double cell_m, double height_m,
-                                         std::uint32_t most_cells_a_side);
+                                         std::uint32_t most_cells_a_side,
+                                         std::uint64_t most_cells = ~std::uint64_t{0});
 
 /// gnomon's world from plan coordinates, and back.
 [[nodiscard]] inline glm::dvec3 world_from_plan(const glm::dvec3& plan) {

@@ -21,6 +21,11 @@ std::string place_text(const sun::Place& place) {
                        place.longitude_rad < 0.0 ? "W" : "E");
 }
 
+std::string stretch_text(const Period& period) {
+    return fmt::format("{} to {} ({})", sun::clock_text(period.from), sun::clock_text(period.to),
+                       sun::offset_text(period.offset));
+}
+
 // Sunrises and sunsets that what is left out about them may reach into the period from.
 struct DayEdges {
     std::vector<sun::Instant> sunrises;
@@ -59,25 +64,19 @@ bool is_left_out(sun::Instant utc, const DayEdges& edges, const SunRules& rules)
 
 Result<std::vector<Step>> make_steps(const Period& period, const sun::Place& place,
                                      const sun::Air& air, const SunRules& rules) {
-    const std::string date = sun::to_text(period.date);
-    const std::string stretch =
-        fmt::format("{} to {} ({})", sun::clock_text(period.from), sun::clock_text(period.to),
-                    sun::offset_text(period.offset));
     if (period.to <= period.from) {
-        return fail(
-            ErrorCode::InvalidInput,
-            fmt::format("The time from {} is empty: it has to end after it begins.", stretch));
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("The time from {} is empty: it has to end after it begins.",
+                                stretch_text(period)));
     }
     if (period.from + period.step > period.to) {
         return fail(ErrorCode::InvalidInput,
                     fmt::format("A step of {} s does not fit into the time from {}: at least two "
                                 "steps are needed.",
-                                period.step.count(), stretch));
+                                period.step.count(), stretch_text(period)));
     }
     const DayEdges edges = edges_about(period, place, rules);
     std::vector<Step> steps;
-    double highest_rad = -std::numbers::pi;
-    bool any = false;
     for (std::chrono::seconds clock = period.from; clock <= period.to; clock += period.step) {
         Step step;
         step.clock = clock;
@@ -87,27 +86,32 @@ Result<std::vector<Step>> make_steps(const Period& period, const sun::Place& pla
         step.counts = altitude > 0.0 && altitude >= rules.min_altitude_rad &&
                       !is_left_out(step.utc, edges, rules);
         step.half_seconds = static_cast<std::uint32_t>(2 * period.step.count());
-        highest_rad = std::max(highest_rad, altitude);
-        any = any || step.counts;
         steps.push_back(step);
     }
     steps.front().half_seconds /= 2;
     steps.back().half_seconds /= 2;
-    if (!any) {
-        const double highest_deg = highest_rad / degree;
-        if (highest_deg <= 0.0) {
-            return fail(ErrorCode::InvalidInput,
-                        fmt::format("On {} the sun stays below the horizon at {} from {}: its "
-                                    "greatest altitude is {:.2f}\u00b0.",
-                                    date, place_text(place), stretch, highest_deg));
-        }
-        return fail(ErrorCode::InvalidInput,
-                    fmt::format("On {} no sun counts at {} from {}: its greatest altitude is "
-                                "{:.2f}\u00b0, and the least altitude or the minutes left out at "
-                                "sunrise and sunset leave nothing.",
-                                date, place_text(place), stretch, highest_deg));
-    }
     return steps;
+}
+
+std::string why_no_sun(std::span<const Step> steps, const Period& period, const sun::Place& place) {
+    double highest_rad = -std::numbers::pi;
+    for (const Step& step : steps) {
+        if (step.counts) return {};
+        highest_rad = std::max(highest_rad, step.sun.altitude_rad);
+    }
+    const double highest_deg = highest_rad / degree;
+    const std::string date = sun::to_text(period.date);
+    if (highest_deg <= 0.0) {
+        return fmt::format(
+            "On {} the sun stays below the horizon at {} from {}: its greatest "
+            "altitude is {:.2f}\u00b0.",
+            date, place_text(place), stretch_text(period), highest_deg);
+    }
+    return fmt::format(
+        "On {} no sun counts at {} from {}: its greatest altitude is {:.2f}\u00b0, "
+        "and the least altitude or the minutes left out at sunrise and sunset leave "
+        "nothing.",
+        date, place_text(place), stretch_text(period), highest_deg);
 }
 
 }  // namespace gnomon::sun_study

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <gnomon/core/result.hpp>
@@ -44,8 +46,13 @@ struct Step {
 inline constexpr double half_seconds_an_hour = 7200.0;
 
 /// From `from` on, every `step`, while not after `to`. Fails with ErrorCode::InvalidInput, and one
-/// sentence: `to` not after `from`, less than two steps, or a sun that counts at none of them.
+/// sentence: `to` not after `from`, or less than two steps. A sun that counts at none of them is
+/// none of that: a polar night is a day without sun.
 [[nodiscard]] Result<std::vector<Step>> make_steps(const Period& period, const sun::Place& place,
                                                    const sun::Air& air, const SunRules& rules);
+
+/// In one sentence, why the sun counts at none of a day's steps; empty where it does at some.
+[[nodiscard]] std::string why_no_sun(std::span<const Step> steps, const Period& period,
+                                     const sun::Place& place);
 
 }  // namespace gnomon::sun_study

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // gnomon profile as a user runs it.
-#include "tests/cli/program.hpp"
+#include "tests/cli/profile.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -15,66 +15,6 @@
 
 namespace gnomon::cli::test {
 namespace {
-
-constexpr const char* tower = R"({"primitives": [
-    {"shape": "box", "name": "tower", "size": [4, 10, 4], "translation": [0, 5, 0]},
-    {"shape": "box", "name": "shed", "size": [2, 2, 2], "translation": [8, 1, 6]}]})";
-
-Arguments profile(const std::string& out, const Arguments& more = {}) {
-    return joined({"profile", "site.scene.json",
-                   "--lat",   "48.306",
-                   "--lon",   "14.286",
-                   "--tz",    "+01:00",
-                   "--date",  "2026-03-21",
-                   "--from",  "09:00",
-                   "--to",    "15:00",
-                   "--step",  "1h",
-                   "--grid",  "0.5m",
-                   "--plane", "0.1",
-                   "--area",  "-20,-16,20,24",
-                   "--out",   out,
-                   "--quiet"},
-                  more);
-}
-
-class Profile : public ProgramTest {
-protected:
-    void SetUp() override {
-        ProgramTest::SetUp();
-        if (!draws("gl") && !draws("vk")) GTEST_SKIP() << "nothing draws here";
-        write("site.scene.json", tower);
-    }
-    [[nodiscard]] nlohmann::json summary(const std::string& folder) const {
-        return nlohmann::json::parse(read(folder + "/summary.json"));
-    }
-    /// Unpacked as NumPy would: rows of ones and zeros.
-    [[nodiscard]] std::vector<std::string> mask(const std::string& file, std::size_t columns,
-                                                std::size_t rows) const {
-        const std::string bytes = read(file);
-        EXPECT_EQ(bytes.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
-        const std::size_t begin = 10 + static_cast<unsigned char>(bytes[8]) +
-                                  256 * std::size_t{static_cast<unsigned char>(bytes[9])};
-        EXPECT_EQ(begin % 64, 0U);
-        const std::size_t stride = (columns + 7) / 8;
-        EXPECT_EQ(bytes.size(), begin + stride * rows);
-        std::vector<std::string> lines(rows);
-        for (std::size_t row = 0; row < rows; ++row) {
-            for (std::size_t column = 0; column < columns; ++column) {
-                const auto byte =
-                    static_cast<unsigned char>(bytes[begin + row * stride + column / 8]);
-                lines[row] += (byte >> (7 - column % 8) & 1) != 0 ? '1' : '0';
-            }
-        }
-        return lines;
-    }
-    void expect_same_files(const std::string& a, const std::string& b) const {
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(path(a))) {
-            if (!entry.is_regular_file()) continue;
-            const std::string name = entry.path().lexically_relative(path(a)).string();
-            EXPECT_EQ(read(a + "/" + name), read(b + "/" + name)) << name;
-        }
-    }
-};
 
 TEST_F(Profile, WritesWhatItPromises) {
     run_well(profile("study"));
@@ -538,7 +478,11 @@ TEST_F(Profile, SaysWhatIsWrongInOneSentence) {
     expect_refused(with("--backend", "null"), {"--backend", "nothing would cast"});
     expect_refused(with("--area", "-1,-1,1,1"), {"--plane", "above every cell"});
     expect_refused(with("--grid", "0.0001"), {"--grid"});
-    expect_refused(with("--eye", "1,2,3"), {"--eye", "--receivers"});
+    expect_refused(with("--target", "1,2,3"), {"--target", "--eye", "--receivers"});
+    expect_refused(joined(profile("x"), {"--method", "scan", "--backend", "null"}),
+                   {"--backend", "scan"});
+    expect_refused(with("--method", "magic"), {"--method", "magic"});
+    expect_refused(with("--area", "0,0,15000,15000"), {"30000 x 30000 cells", "64000000"});
     expect_refused(with("--min-altitude", "80"), {"no sun counts"});
     Arguments night = with("--lat", "80");
     std::replace(night.begin(), night.end(), std::string("2026-03-21"), std::string("2026-12-21"));

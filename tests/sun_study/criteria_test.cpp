@@ -56,6 +56,18 @@ TEST(SunHours, AddUpStepsThatCount) {
     EXPECT_EQ(share_with(hours, std::vector<std::uint8_t>(10, 0), 0.0), 0.0);
 }
 
+// The night before the equinox, say: nothing is lit, which no rule minds.
+TEST(Criteria, AreNotHeldAgainstANight) {
+    std::vector<Step> night = ten_steps();
+    for (Step& step : night) {
+        step.counts = false;
+        step.sun.altitude_rad = -0.2;
+    }
+    for (const auto& [id, criterion] : judged("2026-03-21", night)) {
+        EXPECT_THAT(criterion.objection, HasSubstr("at no step")) << id;
+    }
+}
+
 TEST(Criteria, OfBre209AreForHalfOfAnAreaAtTheEquinox) {
     const auto c = judged("2026-03-21", ten_steps()).at("bre209");
     EXPECT_DOUBLE_EQ(c.share, 5.0 / 9.0);

@@ -31,6 +31,9 @@ TEST(PlanGrid, RefusesWhatIsNoGrid) {
     EXPECT_THAT(message(make_grid({0, 0}, {10, 0}, 1.0, 0.0, 100)), HasSubstr("empty"));
     EXPECT_THAT(message(make_grid({0, 0}, {10, -1}, 1.0, 0.0, 100)), HasSubstr("empty"));
     EXPECT_THAT(message(make_grid({0, 0}, {101, 10}, 1.0, 0.0, 100)), HasSubstr("101 x 10 cells"));
+    EXPECT_THAT(message(make_grid({0, 0}, {30, 10}, 1.0, 0.0, 100, 299)),
+                HasSubstr("30 x 10 cells has more than 299"));
+    EXPECT_THAT(message(make_grid({0, 0}, {30, 10}, 1.0, 0.0, 100, 300)), HasSubstr("accepted"));
     EXPECT_THAT(message(make_grid({1e15, 0}, {1e15 + 10, 10}, 1.0, 0.0, 100)),
                 HasSubstr("double precision"));
     EXPECT_THAT(

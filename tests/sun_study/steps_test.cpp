@@ -29,7 +29,7 @@ Period day(const char* date, int from_h, int to_h, int step_min = 30) {
 
 std::string message_of(const Period& period, const sun::Place& place, const SunRules& rules = {}) {
     const auto steps = make_steps(period, place, {}, rules);
-    return steps ? "accepted" : steps.error().message;
+    return steps ? why_no_sun(*steps, period, place) : steps.error().message;
 }
 
 TEST(Steps, StandForTheTimeFromTheFirstToTheLast) {
@@ -122,6 +122,18 @@ TEST(Steps, SayWhatIsWrong) {
                                HasSubstr("69.65")));
     EXPECT_THAT(message_of(day("2026-12-21", 9, 15), linz, {.min_altitude_rad = 60.0 * degree}),
                 HasSubstr("no sun counts"));
+    EXPECT_EQ(message_of(day("2026-12-21", 9, 15), linz), "");
+}
+
+// Steps all the same, so that a year has it among its days.
+TEST(Steps, OfAPolarNightAreThereAndDoNotCount) {
+    const auto steps = make_steps(day("2026-12-21", 9, 15), tromso, {}, {});
+    ASSERT_TRUE(steps);
+    ASSERT_EQ(steps->size(), 13U);
+    for (const Step& step : *steps) {
+        EXPECT_FALSE(step.counts);
+        EXPECT_LT(step.sun.altitude_rad, 0.0);
+    }
 }
 
 }  // namespace

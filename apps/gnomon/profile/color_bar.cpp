@@ -9,8 +9,13 @@ namespace gnomon::cli {
 
 double hour_tick(double hours) { return hours <= 6.0 ? 1.0 : hours <= 16.0 ? 2.0 : 4.0; }
 
+Color heat_color(double hours, double most_h) {
+    return most_h > 0.0 ? ramp(heat_colors, hours / most_h) : heat_colors.front();
+}
+
 void color_bar(Canvas& canvas, const glm::dvec2& at, double height, std::span<const Color> colors,
                double least_h, double most_h) {
+    if (!(most_h > least_h)) return;
     constexpr double width = 26.0;
     constexpr Color ink{0.13, 0.13, 0.15};
     const int pieces = static_cast<int>(height);

@@ -23,7 +23,11 @@ inline constexpr std::array<Color, 9> heat_colors{{{0.0, 0.0, 0.016},
 /// Whole hours between ticks, for so many hours in all.
 [[nodiscard]] double hour_tick(double hours);
 
-/// The colours from `least_h` at the bottom to `most_h` on top, with ticks at whole hours.
+/// Of so many hours of `most_h`, which may be none.
+[[nodiscard]] Color heat_color(double hours, double most_h);
+
+/// The colours from `least_h` at the bottom to `most_h` on top, with ticks at whole hours. Nothing
+/// where they are the same.
 void color_bar(Canvas& canvas, const glm::dvec2& at, double height, std::span<const Color> colors,
                double least_h, double most_h);
 

@@ -115,6 +115,7 @@ Result<DayResult> gather_day(const Study& study, const sun::Date& date,
     DayResult day;
     day.date = date;
     day.steps = std::move(*steps);
+    day.no_sun = why_no_sun(study, date, day.steps);
     day.open = std::move(*open);
     day.hours = sun_study::SunHours(grid.cell_count());
     // A day may have as many steps as seconds.

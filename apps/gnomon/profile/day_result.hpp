@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <gnomon/sun_study/criteria.hpp>
-#include <gnomon/sun_study/plan_shadows.hpp>
+#include <gnomon/sun_study/plan_mask.hpp>
 #include <gnomon/sun_study/surface_points.hpp>
 
 #include "profile/study.hpp"
@@ -31,6 +31,7 @@ struct DayResult {
     std::vector<std::uint32_t> dark_steps;
     std::vector<float> dark_places;
     std::size_t counted_steps = 0;
+    std::string no_sun;                 ///< why none counts, in a sentence; empty where some do
     std::vector<ProfileStep> outlines;  ///< some 16 at most, evenly over the day
     sun_study::HoursSummary summary;
     std::vector<sun_study::Criterion> criteria;
@@ -54,6 +55,10 @@ enum class MaskKind : std::uint8_t {
 /// Where what is made of a date's masks lies in the study's folder; empty: in the folder itself.
 [[nodiscard]] std::string folder_of_date(const Study& study, const sun::Date& date);
 inline constexpr const char* points_name = "surface-points.npy";
+/// What casts, for perspective pictures: the corners of each face. It is there where --eye was
+/// given.
+inline constexpr const char* casters_name = "casters.npy";
+inline constexpr std::uint32_t numbers_a_face = 9;
 
 /// Sun hours of the points on receivers, for one day.
 struct SurfaceResult {

@@ -5,10 +5,15 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <span>
 
 #include <unistd.h>
 
 #include <fmt/format.h>
+
+#include <gnomon/sun_study/plan_projection.hpp>
+#include <gnomon/sun_study/plan_scan.hpp>
+#include <gnomon/sun_study/plan_shadows.hpp>
 
 #include "devices.hpp"
 #include "files.hpp"
@@ -29,19 +34,68 @@ void tell_masks(std::size_t done, std::size_t all, MaskClock::time_point start,
     std::fflush(stderr);
 }
 
-// Draws plans on a device, or asks about points; whatever it needs is made when it is first needed.
+// A plan, by any of the methods.
+class PlanDrawer {
+public:
+    static Result<PlanDrawer> create(PlanMethod method, gpu::Device* device,
+                                     const std::vector<shadows::Caster>& casters,
+                                     const sun_study::PlanGrid& grid, const shadows::Jobs& jobs) {
+        PlanDrawer drawer;
+        if (method == PlanMethod::Scan) {
+            drawer.scan_.emplace(casters, grid, jobs);
+        } else if (method == PlanMethod::Projection) {
+            auto made = sun_study::PlanProjection::create(*device, casters, grid, {.jobs = jobs});
+            if (!made) return forward_error(made);
+            drawer.projection_ = std::move(*made);
+        } else {
+            auto made = sun_study::PlanShadows::create(*device, casters, grid, {.jobs = jobs});
+            if (!made) return forward_error(made);
+            drawer.volumes_ = std::move(*made);
+        }
+        return drawer;
+    }
+
+    Result<std::vector<sun_study::PlanMask>> lit(std::span<const glm::dvec3> suns) {
+        if (scan_) return scan_->lit(suns);
+        if (projection_) return projection_->lit(suns);
+        std::vector<sun_study::PlanMask> masks;
+        for (const glm::dvec3& sun : suns) {
+            auto mask = volumes_->lit(sun);
+            if (!mask) return forward_error(mask);
+            masks.push_back(std::move(*mask));
+        }
+        return masks;
+    }
+
+private:
+    std::optional<sun_study::PlanScan> scan_;
+    std::optional<sun_study::PlanProjection> projection_;
+    std::optional<sun_study::PlanShadows> volumes_;
+};
+
+// Draws plans, or asks about points; whatever it needs is made when it is first needed.
 class MaskMaker {
 public:
-    MaskMaker(const Study& study, const MaskSubjects& subjects, const std::string& backend)
-        : study_(study), subjects_(subjects), backend_(backend) {}
-
-    Result<sun_study::PlanMask> mask(const MaskJob& job) {
-        if (job.kind == MaskKind::Surface) {
-            if (!queries_) queries_.emplace().update(subjects_.casters);
-            return sun_study::lit_points(*queries_, subjects_.points, job.towards_sun, jobs_);
+    MaskMaker(const Study& study, const MaskSubjects& subjects, const ProfileOptions& options)
+        : study_(study), subjects_(subjects), backend_(options.backend), method_(options.method) {
+        if (method_ == PlanMethod::Auto) {
+            method_ = backend_.empty() ? PlanMethod::Scan : PlanMethod::Projection;
         }
-        if (const Status made = make_ready(job.kind); !made) return forward_error(made);
-        return (job.kind == MaskKind::Plan ? plan_ : before_)->lit(job.towards_sun);
+    }
+
+    // Of one kind.
+    Result<std::vector<sun_study::PlanMask>> masks(MaskKind kind,
+                                                   std::span<const glm::dvec3> suns) {
+        if (kind != MaskKind::Surface) {
+            if (const Status made = make_ready(kind); !made) return forward_error(made);
+            return (kind == MaskKind::Plan ? plan_ : before_)->lit(suns);
+        }
+        if (!queries_) queries_.emplace().update(subjects_.casters);
+        std::vector<sun_study::PlanMask> masks;
+        for (const glm::dvec3& sun : suns) {
+            masks.push_back(sun_study::lit_points(*queries_, subjects_.points, sun, jobs_));
+        }
+        return masks;
     }
 
     // Makes the device and the plan that masks of this kind take.
@@ -49,38 +103,90 @@ public:
         if (kind == MaskKind::Surface) return {};
         auto& plan = kind == MaskKind::Plan ? plan_ : before_;
         if (plan) return {};
-        auto made = make_plan(kind == MaskKind::Plan ? subjects_.casters : subjects_.before);
+        if (method_ != PlanMethod::Scan) {
+            if (const Status made = make_device(); !made) return made;
+        }
+        auto made = PlanDrawer::create(
+            method_, device_ ? &*device_ : nullptr,
+            kind == MaskKind::Plan ? subjects_.casters : subjects_.before, study_.grid, jobs_);
         if (!made) return forward_error(made);
         plan = std::move(*made);
         return {};
     }
 
+    // Masks that are best asked for together: enough for all threads and for a device that is never
+    // waited for long; where each takes long, few, since what is cut off is drawn again.
+    [[nodiscard]] std::size_t batch_size(MaskKind kind) const {
+        return kind == MaskKind::Surface || method_ == PlanMethod::Volumes ? 4 : 64;
+    }
+    [[nodiscard]] const shadows::Jobs& jobs() const { return jobs_; }
+
 private:
-    Result<sun_study::PlanShadows> make_plan(const std::vector<shadows::Caster>& casters) {
-        if (!device_) {
-            auto device = create_device({.backend = backend_});
-            if (!device) return forward_error(device);
-            if (device->caps().backend == "null") {
-                return fail(ErrorCode::InvalidInput,
-                            "--backend: \"null\" draws nothing, so that nothing would cast a "
-                            "shadow.");
-            }
-            device_ = std::move(*device);
+    Status make_device() {
+        if (device_) return {};
+        auto device = create_device({.backend = backend_});
+        if (!device) return forward_error(device);
+        if (device->caps().backend == "null") {
+            return fail(ErrorCode::InvalidInput,
+                        "--backend: \"null\" draws nothing, so that nothing would cast a shadow.");
         }
-        return sun_study::PlanShadows::create(*device_, casters, study_.grid, {.jobs = jobs_});
+        device_ = std::move(*device);
+        return {};
     }
 
     const Study& study_;
     const MaskSubjects& subjects_;
     std::string backend_;
+    PlanMethod method_;
     shadows::Jobs jobs_ = shadows::thread_jobs();
     std::optional<gpu::Device> device_;
-    std::optional<sun_study::PlanShadows> plan_;
-    std::optional<sun_study::PlanShadows> before_;
+    std::optional<PlanDrawer> plan_;
+    std::optional<PlanDrawer> before_;
     std::optional<shadows::ShadowQueries> queries_;
 };
 
+// How many of the jobs, from the first on, are drawn, packed and written together: of one kind, the
+// roofs alone, and not more than takes little memory.
+std::size_t batch_of(const Study& study, std::span<const MaskJob* const> jobs, std::size_t most) {
+    constexpr std::size_t most_bytes = std::size_t{1} << 28U;
+    const auto [columns, rows] = shape_of(study, jobs.front()->kind);
+    most = std::clamp<std::size_t>(most_bytes / (std::size_t{columns} * rows), 1, most);
+    std::size_t count = 1;
+    while (count < std::min(most, jobs.size()) && !jobs.front()->is_open_mask &&
+           !jobs[count]->is_open_mask && jobs[count]->kind == jobs.front()->kind) {
+        ++count;
+    }
+    return count;
+}
+
+Status write_masks(const Study& study, std::span<const MaskJob* const> jobs,
+                   std::span<const sun_study::PlanMask> masks, const shadows::Jobs& threads,
+                   const std::filesystem::path& folder) {
+    const auto [columns, rows] = shape_of(study, jobs.front()->kind);
+    std::vector<Status> written(jobs.size());
+    threads(jobs.size(), [&, columns = columns, rows = rows](std::size_t i) {
+        OutputFiles file;
+        written[i] = file.add(folder / jobs[i]->file, packed_mask(masks[i], columns, rows));
+        if (written[i]) written[i] = file.commit();
+    });
+    for (const Status& status : written) {
+        if (!status) return status;
+    }
+    return {};
+}
+
 }  // namespace
+
+std::vector<std::string> days_without_sun(const Study& study) {
+    std::vector<std::string> sentences;
+    for (const sun::Date& date : study.dates) {
+        const auto steps = steps_of(study, date);
+        if (!steps) continue;
+        std::string why = why_no_sun(study, date, *steps);
+        if (!why.empty()) sentences.push_back(std::move(why));
+    }
+    return sentences;
+}
 
 MaskShape shape_of(const Study& study, MaskKind kind) {
     if (kind == MaskKind::Surface) return {study.surface_points, 1};
@@ -91,15 +197,30 @@ Result<std::vector<MaskJob>> mask_jobs(const Study& study) {
     std::vector<MaskKind> kinds{MaskKind::Plan};
     if (!study.before.empty()) kinds.push_back(MaskKind::Before);
     if (study.surface_points > 0) kinds.push_back(MaskKind::Surface);
+    const auto steps_a_date = static_cast<std::size_t>(
+        std::max<std::int64_t>((study.to - study.from) / study.step + 1, 0));
+    if (const std::size_t most = steps_a_date * study.dates.size() * kinds.size();
+        most > most_masks) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("{} steps on {} dates would take {} masks, and {} is the most at a "
+                                "time: a longer --step, a shorter time from --from to --to or "
+                                "fewer dates fit.",
+                                steps_a_date, study.dates.size(), most, most_masks));
+    }
     std::vector<MaskJob> jobs;
     for (const MaskKind kind : kinds) {
         if (kind == MaskKind::Surface) continue;
         jobs.push_back(
             {.kind = kind, .file = open_mask_name(kind), .what = "roofs", .is_open_mask = true});
     }
+    std::string no_sun;
+    bool any = false;
     for (const sun::Date& date : study.dates) {
         const auto steps = steps_of(study, date);
         if (!steps) return forward_error(steps);
+        const std::string why = why_no_sun(study, date, *steps);
+        any = any || why.empty();
+        if (no_sun.empty()) no_sun = why;
         for (const MaskKind kind : kinds) {
             for (const sun_study::Step& step : *steps) {
                 if (!step.counts) continue;
@@ -111,12 +232,15 @@ Result<std::vector<MaskJob>> mask_jobs(const Study& study) {
             }
         }
     }
-    return jobs;
+    if (any) return jobs;
+    if (study.dates.size() == 1) return fail(ErrorCode::InvalidInput, no_sun);
+    return fail(ErrorCode::InvalidInput, fmt::format("The sun counts on none of the {} dates. {}",
+                                                     study.dates.size(), no_sun));
 }
 
 Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
                   const MaskSubjects& subjects, const ProfileOptions& options,
-                  const std::filesystem::path& masks, bool takes_over,
+                  const std::filesystem::path& masks_folder, bool takes_over,
                   const std::function<Status()>& before_writing) {
     const Shard shard = options.shard.value_or(Shard{});
     std::vector<const MaskJob*> missing;
@@ -124,37 +248,39 @@ Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
         if (i % shard.count + 1 != shard.index) continue;
         const auto [columns, rows] = shape_of(study, jobs[i].kind);
         // A file that cannot be read as a mask is drawn again.
-        if (!takes_over || !read_mask(masks / jobs[i].file, columns, rows)) {
+        if (!takes_over || !read_mask(masks_folder / jobs[i].file, columns, rows)) {
             missing.push_back(&jobs[i]);
         }
     }
     if (missing.empty()) return before_writing();
-    MaskMaker maker(study, subjects, options.backend);
+    MaskMaker maker(study, subjects, options);
     for (const MaskJob* job : missing) {
         if (const Status ready = maker.make_ready(job->kind); !ready) return ready;
     }
     const bool progress = !options.quiet && ::isatty(STDERR_FILENO) != 0;
     const auto start = MaskClock::now();
-    for (std::size_t i = 0; i < missing.size(); ++i) {
-        const MaskJob& job = *missing[i];
-        const auto mask = maker.mask(job);
-        if (!mask) return forward_error(mask);
-        if (job.is_open_mask && std::ranges::count(*mask, 1) == 0) {
+    for (std::size_t first = 0; first < missing.size();) {
+        const std::span left = std::span<const MaskJob* const>(missing).subspan(first);
+        const std::span batch =
+            left.first(batch_of(study, left, maker.batch_size(left.front()->kind)));
+        std::vector<glm::dvec3> suns;
+        for (const MaskJob* job : batch) suns.push_back(job->towards_sun);
+        const auto masks = maker.masks(batch.front()->kind, suns);
+        if (!masks) return forward_error(masks);
+        if (batch.front()->is_open_mask && std::ranges::count(masks->front(), 1) == 0) {
             return fail(ErrorCode::InvalidInput,
                         fmt::format("--plane: something lies above every cell of the grid at {:g} "
                                     "m; a higher plane or fewer casters (--casters) leave some "
                                     "open.",
                                     study.grid.height_m));
         }
-        if (i == 0) {
+        if (first == 0) {
             if (const Status ready = before_writing(); !ready) return ready;
         }
-        const auto [columns, rows] = shape_of(study, job.kind);
-        OutputFiles file;
-        const Status added = file.add(masks / job.file, packed_mask(*mask, columns, rows));
-        if (!added) return added;
-        if (const Status kept = file.commit(); !kept) return kept;
-        if (progress) tell_masks(i + 1, missing.size(), start, job.what);
+        const Status written = write_masks(study, batch, *masks, maker.jobs(), masks_folder);
+        if (!written) return written;
+        first += batch.size();
+        if (progress) tell_masks(first, missing.size(), start, batch.back()->what);
     }
     return {};
 }

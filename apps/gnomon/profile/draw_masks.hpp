@@ -23,9 +23,13 @@ struct MaskJob {
     bool is_open_mask = false;
 };
 
-/// All masks of a study, in the order in which they are dealt out to shards. Fails as make_steps()
-/// does, for any of its dates.
+/// All masks of a study, in the order in which they are dealt out to shards. A date without sun has
+/// none. Fails as make_steps() does, and with ErrorCode::InvalidInput, and one sentence, where no
+/// date has sun, and for more than most_masks, before it has made any.
 [[nodiscard]] Result<std::vector<MaskJob>> mask_jobs(const Study& study);
+
+/// A sentence for each date on which the sun counts at no step.
+[[nodiscard]] std::vector<std::string> days_without_sun(const Study& study);
 
 struct MaskShape {
     std::uint32_t columns = 0;
@@ -47,7 +51,7 @@ struct MaskSubjects {
 /// do, and with ErrorCode::InvalidInput where something lies above every cell.
 [[nodiscard]] Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
                                 const MaskSubjects& subjects, const ProfileOptions& options,
-                                const std::filesystem::path& masks, bool takes_over,
+                                const std::filesystem::path& masks_folder, bool takes_over,
                                 const std::function<Status()>& before_writing);
 
 }  // namespace gnomon::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "profile/mask_files.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <fstream>
@@ -30,6 +31,15 @@ std::string npy_header(const char* type, std::uint32_t rows, std::uint32_t colum
     return header + dictionary;
 }
 
+// Ones and zeros as the bits of a byte, the first of them the highest.
+char byte_of(const std::uint8_t* cells, std::uint32_t count) {
+    static_assert(std::endian::native == std::endian::little);
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, cells, count);
+    // Moves the i-th byte's lowest bit to bit 63 - i; no two of the products share a bit.
+    return static_cast<char>(eight * 0x8040201008040201ULL >> 56U);
+}
+
 std::string bytes_of(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -45,9 +55,10 @@ std::string number_matrix(std::span<const double> numbers, std::uint32_t columns
     return bytes;
 }
 
-Result<std::vector<double>> read_numbers(const std::filesystem::path& path, std::uint32_t columns,
-                                         std::uint32_t rows) {
-    const std::string bytes = bytes_of(path);
+namespace {
+
+Result<std::vector<double>> numbers_in(const std::string& bytes, const std::filesystem::path& path,
+                                       std::uint32_t columns, std::uint32_t rows) {
     if (bytes.empty()) return fail(ErrorCode::Io, fmt::format("{} cannot be read.", path.string()));
     const std::string header = npy_header(number_type, rows, columns);
     const std::size_t count = std::size_t{rows} * columns;
@@ -60,6 +71,22 @@ Result<std::vector<double>> read_numbers(const std::filesystem::path& path, std:
     return numbers;
 }
 
+}  // namespace
+
+Result<std::vector<double>> read_numbers(const std::filesystem::path& path, std::uint32_t columns,
+                                         std::uint32_t rows) {
+    return numbers_in(bytes_of(path), path, columns, rows);
+}
+
+Result<std::vector<double>> read_all_numbers(const std::filesystem::path& path,
+                                             std::uint32_t columns) {
+    const std::string bytes = bytes_of(path);
+    // Headers of all row counts have one length.
+    const std::size_t header = npy_header(number_type, 0, columns).size();
+    const std::size_t rows = bytes.size() < header ? 0 : (bytes.size() - header) / (8UL * columns);
+    return numbers_in(bytes, path, columns, static_cast<std::uint32_t>(rows));
+}
+
 std::string packed_mask(const sun_study::PlanMask& mask, std::uint32_t columns,
                         std::uint32_t rows) {
     const std::uint32_t bytes_a_row = (columns + 7) / 8;
@@ -67,10 +94,13 @@ std::string packed_mask(const sun_study::PlanMask& mask, std::uint32_t columns,
     const std::size_t begin = bytes.size();
     bytes.resize(begin + std::size_t{bytes_a_row} * rows, '\0');
     for (std::uint32_t row = 0; row < rows; ++row) {
-        for (std::uint32_t column = 0; column < columns; ++column) {
-            if (mask[std::size_t{row} * columns + column] == 0) continue;
-            char& byte = bytes[begin + std::size_t{row} * bytes_a_row + column / 8];
-            byte = static_cast<char>(static_cast<unsigned char>(byte) | (0x80U >> (column % 8)));
+        const std::uint8_t* cell = mask.data() + std::size_t{row} * columns;
+        char* byte = bytes.data() + begin + std::size_t{row} * bytes_a_row;
+        for (std::uint32_t left = columns; left > 0;) {
+            const std::uint32_t count = std::min(left, 8U);
+            *byte++ = byte_of(cell, count);
+            cell += count;
+            left -= count;
         }
     }
     return bytes;

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include <gnomon/core/result.hpp>
-#include <gnomon/sun_study/plan_shadows.hpp>
+#include <gnomon/sun_study/plan_mask.hpp>
 
 namespace gnomon::cli {
 
-/// The file's bytes.
+/// The file's bytes. The mask's are 0 and 1.
 [[nodiscard]] std::string packed_mask(const sun_study::PlanMask& mask, std::uint32_t columns,
                                       std::uint32_t rows);
 
@@ -27,6 +27,10 @@ namespace gnomon::cli {
 /// Reads one. Fails as read_mask() does.
 [[nodiscard]] Result<std::vector<double>> read_numbers(const std::filesystem::path& path,
                                                        std::uint32_t columns, std::uint32_t rows);
+
+/// However many rows it has.
+[[nodiscard]] Result<std::vector<double>> read_all_numbers(const std::filesystem::path& path,
+                                                           std::uint32_t columns);
 
 /// Fails with ErrorCode::Io where it cannot be read, with InvalidInput where it is no mask of this
 /// size.

@@ -157,7 +157,7 @@ Result<PlanPicture> draw_hours(const Study& study, const DayResult& day) {
     const double most_h = day.most_hours();
     std::vector<Color> colors(grid.cell_count(), covered);
     for (std::size_t i = 0; i < colors.size(); ++i) {
-        if (day.open[i] != 0) colors[i] = ramp(heat_colors, day.hours.hours(i) / most_h);
+        if (day.open[i] != 0) colors[i] = heat_color(day.hours.hours(i), most_h);
     }
     canvas.cells(frame.corner(), colors, grid.columns, frame.scale());
     const double tick = hour_tick(most_h);
@@ -169,7 +169,8 @@ Result<PlanPicture> draw_hours(const Study& study, const DayResult& day) {
     const double bar = std::min(320.0, std::max(frame.size().y, 420.0) - 180.0);
     color_bar(canvas, legend + glm::dvec2(0.0, 30.0), bar, heat_colors, 0.0, most_h);
     swatch(canvas, legend + glm::dvec2(0.0, bar + 48.0), covered, "under a roof");
-    canvas.text(legend + glm::dvec2(0.0, bar + 86.0), fmt::format("lines every {:g} h", tick),
+    canvas.text(legend + glm::dvec2(0.0, bar + 86.0),
+                most_h > 0.0 ? fmt::format("lines every {:g} h", tick) : "no sun on this day",
                 {.size = 12.0});
     canvas.text(legend + glm::dvec2(0.0, bar + 104.0),
                 fmt::format("mean {:.2f} h", day.summary.mean_h), {.size = 12.0});

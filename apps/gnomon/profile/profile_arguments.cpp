@@ -227,11 +227,12 @@ void add_surfaces(CLI::App& app, ProfileOptions& o) {
         };
     };
     app.add_option_function<std::string>("--eye", parsed_into(o.eye_plan, point("--eye")),
-                                         "From where surfaces.png looks, in the plan's "
-                                         "coordinates; default: from the sunny side, above")
+                                         "Make scene.png, the plane and all that casts as seen "
+                                         "from here, in the plan's coordinates; surfaces.png looks "
+                                         "from here too, else from the sunny side, above")
         ->type_name("x,y,height");
     app.add_option_function<std::string>("--target", parsed_into(o.target_plan, point("--target")),
-                                         "And at what; default: the middle of the receivers")
+                                         "And at what; default: the middle of what is drawn")
         ->type_name("x,y,height");
 }
 
@@ -278,6 +279,19 @@ const CLI::App* add_profile(CLI::App& app, ProfileOptions& o) {
                      "them; needs no MODEL")
         ->excludes(shard)
         ->type_name("DIR…");
+    profile
+        ->add_option_function<std::string>(
+            "--method",
+            [&o](const std::string& text) {
+                o.method = text == "scan"         ? PlanMethod::Scan
+                           : text == "projection" ? PlanMethod::Projection
+                           : text == "volumes"    ? PlanMethod::Volumes
+                                                  : PlanMethod::Auto;
+            },
+            "How plans are drawn: casters flattened onto the plane by the processor (scan) or by a "
+            "device (projection), or shadow volumes; default auto: scan, or projection where "
+            "--backend is given")
+        ->check(CLI::IsMember({"auto", "scan", "projection", "volumes"}));
     profile
         ->add_option("--backend", o.backend,
                      fmt::format("One of {}", fmt::join(backend_names(), ", ")))

@@ -58,10 +58,16 @@ Status check_given(const ProfileOptions& o) {
                                  check_utf8(o.receivers.value_or(""), "--receivers")}) {
         if (!status) return status;
     }
-    if ((o.eye_plan || o.target_plan) && !o.receivers) {
+    if (o.method == PlanMethod::Scan && !o.backend.empty()) {
         return fail(ErrorCode::InvalidInput,
-                    "--eye and --target are for the picture of --receivers, of which none is "
-                    "named.");
+                    fmt::format("--backend: --method scan draws on the processor and has no use "
+                                "for \"{}\".",
+                                o.backend));
+    }
+    if (o.target_plan && !o.eye_plan && !o.receivers) {
+        return fail(ErrorCode::InvalidInput,
+                    "--target is for the pictures of --eye and --receivers, of which neither is "
+                    "given.");
     }
     return {};
 }
@@ -79,7 +85,7 @@ Result<sun_study::PlanGrid> grid_of(const ProfileOptions& o, const SiteModel& si
         min = glm::floor((min - margin) / o.cell_m) * o.cell_m;
         max += margin;
     }
-    return sun_study::make_grid(min, max, o.cell_m, height, most_cells_a_side);
+    return sun_study::make_grid(min, max, o.cell_m, height, most_cells_a_side, most_cells);
 }
 
 Result<Study> study_of(const ProfileOptions& o, const SiteModel& site) {
@@ -118,7 +124,7 @@ Status take_over(const fs::path& from, const fs::path& to) {
     return file.commit();
 }
 
-// Where each of a study's masks is found, and its points last, if it has any: name, and the whole
+// Where each of a study's masks is found, and what else is kept among them: name, and the whole
 // path. Nothing is written before all of them are known to be there.
 using Sources = std::vector<std::pair<std::string, fs::path>>;
 
@@ -144,6 +150,22 @@ Result<Sources> find_parts(const ProfileOptions& o, const Study& study) {
                     fmt::format("--merge: {} of {} masks are in none of the folders, the first of "
                                 "them that of {}: a part is missing, or was cut off.",
                                 missing.size(), jobs->size(), missing.front()));
+    }
+    if (o.eye_plan) {
+        const auto has_casters = [](const std::string& folder) {
+            std::error_code error;
+            return fs::exists(fs::path(folder) / "masks" / casters_name, error);
+        };
+        const auto found = std::ranges::find_if(o.merge, has_casters);
+        if (found != o.merge.end()) {
+            sources.emplace_back(casters_name, fs::path(*found) / "masks" / casters_name);
+        } else if (study.surface_points == 0) {
+            return fail(
+                ErrorCode::InvalidInput,
+                fmt::format("--eye: none of the folders has masks/{}, which a part has that "
+                            "was drawn with --eye.",
+                            casters_name));
+        }
     }
     if (study.surface_points > 0) {
         const fs::path points = fs::path(o.merge.front()) / "masks" / points_name;
@@ -202,15 +224,48 @@ Status add_subjects(const ProfileOptions& o, Study& study, MaskSubjects& subject
     return {};
 }
 
+std::vector<double> corners_of_faces(const std::vector<shadows::Caster>& casters) {
+    std::vector<double> numbers;
+    for (const shadows::Caster& caster : casters) {
+        for (const auto& face : caster.mesh->faces()) {
+            for (const std::uint32_t corner : face) {
+                const glm::dvec3 local(caster.mesh->positions()[corner]);
+                const glm::dvec3 plan = sun_study::plan_from_world(
+                    glm::dvec3(caster.world_from_local * glm::dvec4(local, 1.0)));
+                numbers.insert(numbers.end(), {plan.x, plan.y, plan.z});
+            }
+        }
+    }
+    return numbers;
+}
+
 // The study's folder, ready for masks.
-Status begin_folder(const Study& study, const MaskSubjects& subjects, const fs::path& out) {
-    if (const Status ready = prepare_folder(study, out); !ready) return ready;
-    if (subjects.points.empty()) return {};
-    OutputFiles file;
-    const Status added = file.add(out / "masks" / points_name,
-                                  number_matrix(numbers_of(subjects.points), numbers_a_point));
-    if (!added) return added;
-    return file.commit();
+Status begin_folder(const Study& study, const MaskSubjects& subjects, const ProfileOptions& o) {
+    if (const Status ready = prepare_folder(study, o.out); !ready) return ready;
+    OutputFiles files;
+    if (!subjects.points.empty()) {
+        const Status added = files.add(o.out / "masks" / points_name,
+                                       number_matrix(numbers_of(subjects.points), numbers_a_point));
+        if (!added) return added;
+    }
+    if (o.eye_plan) {
+        const Status added =
+            files.add(o.out / "masks" / casters_name,
+                      number_matrix(corners_of_faces(subjects.casters), numbers_a_face));
+        if (!added) return added;
+    }
+    return files.commit();
+}
+
+void tell_days_without_sun(const Study& study) {
+    constexpr std::size_t most = 3;
+    const std::vector<std::string> days = days_without_sun(study);
+    for (std::size_t i = 0; i < std::min(days.size(), most); ++i) {
+        fmt::print(stderr, "{} It has no hours.\n", days[i]);
+    }
+    if (days.size() > most) {
+        fmt::print(stderr, "So it is on {} more dates.\n", days.size() - most);
+    }
 }
 
 Status draw(const ProfileOptions& o) {
@@ -235,9 +290,10 @@ Status draw(const ProfileOptions& o) {
                        study->grid.height_m, above_lowest_m);
         }
     }
+    if (!o.quiet) tell_days_without_sun(*study);
     const Status drawn =
         draw_masks(*study, *jobs, subjects, o, o.out / "masks", *state == FolderState::Same,
-                   [&] { return begin_folder(*study, subjects, o.out); });
+                   [&] { return begin_folder(*study, subjects, o); });
     if (!drawn || o.shard) return drawn;
     return write_study(*study, o.out, {o.eye_plan, o.target_plan});
 }

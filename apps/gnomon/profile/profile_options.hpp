@@ -23,6 +23,14 @@ struct Shard {
     std::uint32_t count = 1;
 };
 
+/// How plans are drawn. Their masks differ in cells on a shadow's very edge alone.
+enum class PlanMethod : std::uint8_t {
+    Auto,        ///< Scan; Projection where a backend is named
+    Scan,        ///< sun_study::PlanScan: on the processor
+    Projection,  ///< sun_study::PlanProjection: on a device
+    Volumes,     ///< sun_study::PlanShadows: on a device
+};
+
 struct ProfileOptions {
     std::string model = {};
     std::optional<double> latitude_deg = std::nullopt;
@@ -53,6 +61,7 @@ struct ProfileOptions {
     std::optional<Shard> shard = std::nullopt;
     std::vector<std::string> merge = {};
     std::filesystem::path out = {};
+    PlanMethod method = PlanMethod::Auto;
     std::string backend = {};
     bool quiet = false;
 };

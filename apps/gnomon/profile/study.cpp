@@ -96,6 +96,14 @@ private:
     std::string wrong_;
 };
 
+sun_study::Period period_of(const Study& s, const sun::Date& date) {
+    return {.date = date, .from = s.from, .to = s.to, .step = s.step, .offset = s.offset};
+}
+
+sun::Place place_of(const Study& s) {
+    return {glm::radians(s.latitude_deg), glm::radians(s.longitude_deg), s.elevation_m};
+}
+
 }  // namespace
 
 nlohmann::json to_json(const Study& s) {
@@ -177,6 +185,9 @@ Result<Study> study_from_json(const std::string& text, const std::string& place)
     s.grid.columns = grid.count("columns", 1, most_cells_a_side);
     s.grid.rows = grid.count("rows", 1, most_cells_a_side);
     s.grid.height_m = grid.number("height_m", -farthest_m, farthest_m);
+    if (s.grid.cell_count() > most_cells) {
+        grid.refuse(fmt::format("its grid has more than {} cells", most_cells));
+    }
     in.refuse(grid.wrong());
     if (!in.wrong().empty()) return refused(in.wrong());
     return s;
@@ -184,11 +195,15 @@ Result<Study> study_from_json(const std::string& text, const std::string& place)
 
 Result<std::vector<sun_study::Step>> steps_of(const Study& s, const sun::Date& date) {
     return sun_study::make_steps(
-        {.date = date, .from = s.from, .to = s.to, .step = s.step, .offset = s.offset},
-        {glm::radians(s.latitude_deg), glm::radians(s.longitude_deg), s.elevation_m}, s.air,
+        period_of(s, date), place_of(s), s.air,
         {.min_altitude_rad = glm::radians(s.min_altitude_deg),
          .skip_after_sunrise = std::chrono::minutes(s.skip_after_sunrise_min),
          .skip_before_sunset = std::chrono::minutes(s.skip_before_sunset_min)});
+}
+
+std::string why_no_sun(const Study& study, const sun::Date& date,
+                       std::span<const sun_study::Step> steps) {
+    return sun_study::why_no_sun(steps, period_of(study, date), place_of(study));
 }
 
 glm::dvec3 towards_sun(const Study& study, const sun_study::Step& step) {

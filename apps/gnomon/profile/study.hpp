@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,12 @@
 
 namespace gnomon::cli {
 
-inline constexpr std::uint32_t most_cells_a_side = 1U << 20U;
+/// Of a grid: as wide as pictures can be, and as large as what is made of masks (some 80 bytes a
+/// cell) fits into memory.
+inline constexpr std::uint32_t most_cells_a_side = 32'000;
+inline constexpr std::uint64_t most_cells = 64'000'000;
+/// Of a study, those of dark steps included: each is a file.
+inline constexpr std::size_t most_masks = 1'000'000;
 inline constexpr std::uint32_t most_surface_points = 2'000'000;
 
 struct Study {
@@ -52,9 +58,12 @@ struct Study {
 /// gnomon profile takes, with its limits; `place` names the file.
 [[nodiscard]] Result<Study> study_from_json(const std::string& text, const std::string& place);
 
-/// The steps of one of its dates.
+/// The steps of one of its dates. Fails as make_steps() does.
 [[nodiscard]] Result<std::vector<sun_study::Step>> steps_of(const Study& study,
                                                             const sun::Date& date);
+/// As sun_study::why_no_sun() has it.
+[[nodiscard]] std::string why_no_sun(const Study& study, const sun::Date& date,
+                                     std::span<const sun_study::Step> steps);
 
 /// Towards the sun, in the plan's coordinates.
 [[nodiscard]] glm::dvec3 towards_sun(const Study& study, const sun_study::Step& step);

@@ -5,11 +5,13 @@
 #include <array>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
+#include "profile/mask_files.hpp"
 #include "profile/plan_pictures.hpp"
 #include "profile/study_page.hpp"
 #include "profile/sun_path.hpp"
@@ -109,6 +111,7 @@ std::string summary_json(const Study& study, const DayResult& day, const DayResu
     }
     json summary = figures_of(study, day);
     summary["date"] = sun::to_text(day.date);
+    if (!day.no_sun.empty()) summary["no_sun"] = day.no_sun;
     summary["study"] = to_json(study);
     summary["cells"] = study.grid.cell_count();
     summary["criteria"] = std::move(criteria);
@@ -169,8 +172,22 @@ Status add_picture(OutputFiles& files, const fs::path& folder, const std::string
     return png ? files.add(folder / (name + ".pgw"), picture->world_file) : png;
 }
 
+// For the whole scene: none where no such picture is asked for.
+Result<std::vector<PlanCorners>> casters_for(const PictureCamera& camera, const fs::path& masks) {
+    std::vector<PlanCorners> casters;
+    std::error_code error;
+    if (!camera.eye_plan || !fs::exists(masks / casters_name, error)) return casters;
+    const auto numbers = read_all_numbers(masks / casters_name, numbers_a_face);
+    if (!numbers) return forward_error(numbers);
+    for (std::size_t i = 0; i + numbers_a_face <= numbers->size(); i += numbers_a_face) {
+        const double* at = numbers->data() + i;
+        casters.push_back({{{at[0], at[1], at[2]}, {at[3], at[4], at[5]}, {at[6], at[7], at[8]}}});
+    }
+    return casters;
+}
+
 Status write_day(const Study& study, const DayParts& parts, const fs::path& folder,
-                 const SurfaceCamera& camera) {
+                 const PictureCamera& camera, std::span<const PlanCorners> casters) {
     const DayResult& day = parts.day;
     std::error_code error;
     fs::create_directories(folder, error);
@@ -201,6 +218,12 @@ Status write_day(const Study& study, const DayParts& parts, const fs::path& fold
             if (!added) return added;
         }
     }
+    if (!casters.empty()) {
+        const auto picture = draw_scene(study, day, surfaces, casters, camera);
+        if (!picture) return forward_error(picture);
+        const Status added = files.add(folder / "scene.png", *picture);
+        if (!added) return added;
+    }
     const Status summary =
         files.add(folder / "summary.json", summary_json(study, day, before, surfaces));
     if (!summary) return summary;
@@ -209,13 +232,15 @@ Status write_day(const Study& study, const DayParts& parts, const fs::path& fold
 
 }  // namespace
 
-Status write_study(const Study& study, const fs::path& out, const SurfaceCamera& camera) {
+Status write_study(const Study& study, const fs::path& out, const PictureCamera& camera) {
+    const auto casters = casters_for(camera, out / "masks");
+    if (!casters) return forward_error(casters);
     std::vector<PageDay> page_days;
     for (const sun::Date& date : study.dates) {
         const auto parts = gather(study, date, out / "masks");
         if (!parts) return forward_error(parts);
         const std::string folder = folder_of_date(study, date);
-        const Status written = write_day(study, *parts, out / folder, camera);
+        const Status written = write_day(study, *parts, out / folder, camera, *casters);
         if (!written) return written;
         page_days.push_back(page_day(parts->day, folder));
     }
@@ -223,7 +248,8 @@ Status write_study(const Study& study, const fs::path& out, const SurfaceCamera&
     const auto path = draw_sun_path(study);
     if (!path) return forward_error(path);
     if (const Status added = files.add(out / "sun-path.png", *path); !added) return added;
-    const Status page = files.add(out / "report.html", study_page(study, page_days));
+    const Status page =
+        files.add(out / "report.html", study_page(study, page_days, !casters->empty()));
     if (!page) return page;
     return files.commit();
 }

@@ -13,8 +13,9 @@ namespace gnomon::cli {
 /// Writes all of a study into its folder, from the masks in its folder "masks": profile.png,
 /// hours.png, a world file beside each, hours.csv and summary.json, one set a date (in folders
 /// named by date where there are several), and sun-path.png and report.html; difference.png and
-/// .csv where there is a model before, surfaces.png and .csv where there are receivers.
+/// .csv where there is a model before, surfaces.png and .csv where there are receivers; scene.png
+/// where the camera has an eye and what casts is in the folder "masks" as well.
 [[nodiscard]] Status write_study(const Study& study, const std::filesystem::path& out,
-                                 const SurfaceCamera& camera);
+                                 const PictureCamera& camera);
 
 }  // namespace gnomon::cli

@@ -27,10 +27,10 @@ namespace fs = std::filesystem;
 
 // What write_study() makes of masks: of the whole study, and of each date.
 constexpr std::array<const char*, 2> files_of_all{"report.html", "sun-path.png"};
-constexpr std::array<const char*, 11> files_of_a_day{
+constexpr std::array<const char*, 12> files_of_a_day{
     "summary.json",   "profile.png",  "profile.pgw",    "hours.png",
     "hours.pgw",      "hours.csv",    "difference.png", "difference.pgw",
-    "difference.csv", "surfaces.png", "surfaces.csv"};
+    "difference.csv", "surfaces.png", "surfaces.csv",   "scene.png"};
 
 Status remove_file(const fs::path& path) {
     std::error_code error;
@@ -53,6 +53,7 @@ Result<std::vector<fs::path>> files_of(const Study& study, const fs::path& out) 
     }
     for (const MaskJob& job : *jobs) files.push_back(out / "masks" / job.file);
     files.push_back(out / "masks" / points_name);
+    files.push_back(out / "masks" / casters_name);
     return files;
 }
 
@@ -91,7 +92,7 @@ bool is_left_behind(const fs::path& path) {
 Status remove_halves(const Study& study, const fs::path& masks) {
     const auto jobs = mask_jobs(study);
     if (!jobs) return forward_error(jobs);
-    std::unordered_set<std::string> names{points_name};
+    std::unordered_set<std::string> names{points_name, casters_name};
     for (const MaskJob& job : *jobs) names.insert(job.file);
     std::vector<fs::path> halves;
     std::error_code error;

@@ -48,10 +48,10 @@ std::string criteria_table(const PageDay& day) {
 }  // namespace
 
 PageDay page_day(const DayResult& day, const std::string& folder) {
-    return {day.date, folder, day.summary, day.most_hours(), day.criteria};
+    return {day.date, folder, day.summary, day.most_hours(), day.no_sun, day.criteria};
 }
 
-std::string study_page(const Study& study, const std::vector<PageDay>& days) {
+std::string study_page(const Study& study, const std::vector<PageDay>& days, bool has_scene) {
     const sun_study::PlanGrid& grid = study.grid;
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=en><meta charset=utf-8><title>Sun study: {0}</title>"
@@ -78,6 +78,7 @@ std::string study_page(const Study& study, const std::vector<PageDay>& days) {
             sun::to_text(day.date),
             static_cast<double>(day.summary.open_cells) * grid.cell_m * grid.cell_m,
             day.summary.min_h, day.summary.mean_h, day.summary.max_h, day.possible_h);
+        if (!day.no_sun.empty()) html += fmt::format("<p>{}</p>\n", html_text(day.no_sun));
         html += criteria_table(day);
         html += fmt::format(
             "<p><img src=\"{0}hours.png\" alt=\"Hours of sun\"></p>\n"
@@ -85,6 +86,10 @@ std::string study_page(const Study& study, const std::vector<PageDay>& days) {
             "<p><a href=\"{0}summary.json\">summary.json</a>, "
             "<a href=\"{0}hours.csv\">hours.csv</a></p>\n",
             folder);
+        if (has_scene) {
+            html += fmt::format(
+                "<p><img src=\"{}scene.png\" alt=\"Hours of sun, in perspective\"></p>\n", folder);
+        }
         if (!study.before.empty()) {
             html += fmt::format(
                 "<p><img src=\"{0}difference.png\" alt=\"Hours gained and lost\"></p>\n"

@@ -16,10 +16,13 @@ struct PageDay {
     std::string folder;  ///< of its pictures, from the page's; empty: the same
     sun_study::HoursSummary summary;
     double possible_h = 0.0;
+    std::string no_sun;  ///< as DayResult has it
     std::vector<sun_study::Criterion> criteria;
 };
 
 [[nodiscard]] PageDay page_day(const DayResult& day, const std::string& folder);
-[[nodiscard]] std::string study_page(const Study& study, const std::vector<PageDay>& days);
+/// `has_scene`: each day has a scene.png.
+[[nodiscard]] std::string study_page(const Study& study, const std::vector<PageDay>& days,
+                                     bool has_scene);
 
 }  // namespace gnomon::cli

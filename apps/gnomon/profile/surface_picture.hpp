@@ -1,28 +1,31 @@
 // SPDX-License-Identifier: MIT
 //
-// A perspective picture of the surfaces of a sun study, coloured by their sun hours.
+// Perspective pictures of a sun study, coloured by sun hours: of its surfaces alone, and of the
+// whole scene.
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "profile/day_result.hpp"
+#include "profile/perspective.hpp"
 
 namespace gnomon::cli {
 
-/// Where it is looked from and at, in plan coordinates; by default from above, from the side that
-/// the sun comes from, at all of it.
-struct SurfaceCamera {
-    std::optional<glm::dvec3> eye_plan;
-    std::optional<glm::dvec3> target_plan;
-};
-
-/// A PNG. Patches that look away are left out, nearer ones are painted over farther ones. `most_h`
-/// is what any could have. Fails with ErrorCode::InvalidInput where eye and target are one point.
+/// A PNG of the patches that are turned to the eye. `most_h` is what any could have. Fails as
+/// Perspective::create() does.
 [[nodiscard]] Result<std::vector<std::byte>> draw_surfaces(const Study& study,
                                                            const SurfaceResult& surfaces,
                                                            const sun::Date& date, double most_h,
-                                                           const SurfaceCamera& camera);
+                                                           const PictureCamera& camera);
+
+/// A PNG of the plane and the casters on it: cells, and patches of `surfaces` where there are any,
+/// by their hours; what casts and was not asked about in grey, shaded. Fails as
+/// Perspective::create() does.
+[[nodiscard]] Result<std::vector<std::byte>> draw_scene(const Study& study, const DayResult& day,
+                                                        const SurfaceResult* surfaces,
+                                                        std::span<const PlanCorners> casters,
+                                                        const PictureCamera& camera);
 
 }  // namespace gnomon::cli

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+//
+// gnomon profile: the ways to draw plans, dates without sun, limits, and the perspective picture.
+#include "tests/cli/profile.hpp"
+
+#include <algorithm>
+
+namespace gnomon::cli::test {
+namespace {
+
+TEST_F(Profile, DrawsTheSameByAnyMethodButForEdges) {
+    if (!draws("gl") && !draws("vk")) GTEST_SKIP() << "nothing draws here";
+    run_well(profile("scan"));
+    for (const char* method : {"projection", "volumes"}) {
+        run_well(profile(method, {"--method", method}));
+        std::size_t differing = 0;
+        std::size_t dark = 0;
+        const nlohmann::json s = summary("scan");
+        for (const auto& step : s["steps"]) {
+            const auto name = step["mask"].get<std::string>();
+            const auto scanned = mask("scan/" + name, 80, 80);
+            const auto drawn = mask(std::string(method) + "/" + name, 80, 80);
+            for (std::size_t row = 0; row < 80; ++row) {
+                for (std::size_t column = 0; column < 80; ++column) {
+                    differing += scanned[row][column] != drawn[row][column] ? 1 : 0;
+                    dark += scanned[row][column] == '0' ? 1 : 0;
+                }
+            }
+        }
+        EXPECT_LE(differing, 7U) << method;
+        EXPECT_GT(dark, 7U * 300U);
+    }
+    // A backend that is named draws.
+    EXPECT_EQ(run(profile("x", {"--backend", "null"})).exit_code, 2);
+}
+
+// North of the polar circle a year has days without sun: they have no hours, and it is said.
+TEST_F(Profile, HasDaysWithoutSunAmongOthers) {
+    Arguments arguments = profile("study", {"--before", "site.scene.json", "--receivers", "tower"});
+    const auto set = [&](const char* option, const char* value) {
+        *(std::find(arguments.begin(), arguments.end(), option) + 1) = value;
+    };
+    set("--lat", "69.65");
+    set("--date", "2026-12-21,2026-03-21");
+    std::erase(arguments, std::string("--quiet"));
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("On 2026-12-21 the sun stays below the horizon"),
+              std::string::npos)
+        << outcome.errors;
+    const nlohmann::json dark = summary("study/2026-12-21");
+    EXPECT_EQ(dark["hours"]["possible"], 0.0);
+    EXPECT_EQ(dark["hours"]["max"], 0.0);
+    EXPECT_NE(dark["no_sun"].get<std::string>().find("below the horizon"), std::string::npos);
+    EXPECT_FALSE(summary("study/2026-03-21").contains("no_sun"));
+    EXPECT_EQ(summary("study/2026-03-21")["hours"]["possible"], 6.0);
+    EXPECT_TRUE(std::filesystem::is_regular_file(path("study/2026-12-21/hours.png")));
+    EXPECT_NE(read("study/report.html").find("stays below the horizon"), std::string::npos);
+
+    set("--date", "2026-12-20,2026-12-21");
+    const auto refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.errors.find("on none of the 2 dates"), std::string::npos) << refused.errors;
+}
+
+TEST_F(Profile, RefusesMoreMasksThanAnybodyKeeps) {
+    Arguments arguments = profile("study");
+    const auto set = [&](const char* option, const char* value) {
+        *(std::find(arguments.begin(), arguments.end(), option) + 1) = value;
+    };
+    set("--step", "1s");
+    set("--date", "2025-01-01..2025-12-31");
+    expect_refused(arguments, {"21601 steps on 365 dates", "1000000"});
+    EXPECT_FALSE(std::filesystem::exists(path("study")));
+}
+
+TEST_F(Profile, ShowsTheWholeSceneInPerspective) {
+    const Arguments eye{"--eye", "-30,-40,35"};
+    run_well(profile("study", eye));
+    EXPECT_TRUE(std::filesystem::is_regular_file(path("study/scene.png")));
+    EXPECT_NE(read("study/report.html").find("scene.png"), std::string::npos);
+    // Parts take what casts along.
+    run_well(joined(profile("part1", {"--shard", "1/2"}), eye));
+    run_well(profile("part2", {"--shard", "2/2"}));
+    run_well(joined({"profile", "--quiet", "--out", "merged", "--merge", "part1", "part2"}, eye));
+    expect_same_files("study", "merged");
+    expect_refused(joined({"profile", "--quiet", "--out", "x", "--merge", "part2", "part2"}, eye),
+                   {"--merge"});
+    // Another study takes it away again.
+    Arguments other = profile("study");
+    *(std::find(other.begin(), other.end(), std::string("--step")) + 1) = "2h";
+    run_well(other);
+    EXPECT_FALSE(std::filesystem::exists(path("study/masks/casters.npy")));
+    EXPECT_FALSE(std::filesystem::exists(path("study/scene.png")));
+}
+
+}  // namespace
+}  // namespace gnomon::cli::test
