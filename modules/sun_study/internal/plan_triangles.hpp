@@ -9,6 +9,7 @@
 // is cut off here, once, since where a face meets the plane does not depend on the sun.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,9 +38,10 @@ struct PlanTriangles {
 [[nodiscard]] PlanTriangles plan_triangles(std::span<const shadows::Caster> casters,
                                            const PlanGrid& grid);
 
-/// Where on the plane the shadow of a point at height 1 falls, from the point's foot.
+/// Where on the plane the shadow of a point at height 1 falls, from the point's foot. A sun nearer
+/// to the horizon than 1e-9 radians counts as that near.
 [[nodiscard]] inline glm::dvec2 shadow_of_height_1(const glm::dvec3& towards_sun_plan) {
-    return glm::dvec2(towards_sun_plan) / -towards_sun_plan.z;
+    return glm::dvec2(towards_sun_plan) / -std::max(towards_sun_plan.z, 1e-9);
 }
 
 }  // namespace gnomon::sun_study::internal
