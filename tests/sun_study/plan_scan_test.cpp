@@ -174,6 +174,22 @@ TEST(PlanScan, TakesASunOnTheHorizon) {
     }
 }
 
+// What is summed up at a time is less than this grid; its pieces are whole grids' masks.
+TEST(PlanScan, IsTheSameInOnePieceOrMany) {
+    const glm::dvec3 sun = sun::towards_sun(143.0 * degree, 27.0 * degree);
+    const PlanGrid whole = must(make_grid({-16.0, -16.0}, {16.0, 16.0}, 1.0 / 64.0, 0.05, 4096));
+    ASSERT_GT(whole.cell_count(), std::size_t{1} << 21U);
+    const PlanMask mask = scanned(test::site(), whole, sun);
+    for (const double y : {-16.0, -8.0, 0.0, 8.0}) {
+        const PlanGrid piece = must(make_grid({-16.0, y}, {16.0, y + 8.0}, 1.0 / 64.0, 0.05, 4096));
+        const PlanMask part = scanned(test::site(), piece, sun);
+        const auto first_row = static_cast<std::ptrdiff_t>((8.0 - y) * 64.0);
+        EXPECT_TRUE(std::equal(part.begin(), part.end(), mask.begin() + first_row * whole.columns))
+            << y;
+    }
+    EXPECT_GT(std::count(mask.begin(), mask.end(), 0), 100'000);
+}
+
 TEST(PlanScan, IsTheSameOnAnyThreads) {
     const PlanGrid grid = must(make_grid({-15.0, -13.0}, {15.0, 13.0}, 0.23, 0.05, 4096));
     std::vector<glm::dvec3> suns;

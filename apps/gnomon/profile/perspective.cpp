@@ -130,7 +130,7 @@ void Perspective::fill(const std::array<glm::dvec3, 3>& corners, const Color& co
     }
 }
 
-void Perspective::draw_onto(Canvas& canvas) const {
+std::vector<Color> Perspective::pixels() const {
     std::vector<Color> colors(std::size_t{width} * height, {0.0, 0.0, 0.0});
     constexpr double share = 1.0 / (255.0 * samples_a_side * samples_a_side);
     const std::array<std::uint8_t, 3> nothing = bytes_of(sky);
@@ -144,7 +144,7 @@ void Perspective::draw_onto(Canvas& canvas) const {
             to.b += from[2] * share;
         }
     }
-    canvas.cells({0.0, 0.0}, colors, width, 1.0);
+    return colors;
 }
 
 }  // namespace gnomon::cli

@@ -46,7 +46,8 @@ public:
     /// Both sides are seen. `lift` moves it towards the eye, as a share of the distance: a patch
     /// over the face that it is a piece of.
     void triangle(const PlanCorners& corners, const Color& color, double lift = 0.0);
-    void draw_onto(Canvas& canvas) const;
+    /// width x height of them, row 0 on top.
+    [[nodiscard]] std::vector<Color> pixels() const;
 
 private:
     struct Sample {

@@ -61,7 +61,7 @@ Result<std::vector<std::byte>> with_legend(const Perspective& picture, const std
                                            const std::string& subtitle, double most_h,
                                            bool has_grey) {
     Canvas canvas(Perspective::width + 140, Perspective::height, {0.93, 0.94, 0.95});
-    picture.draw_onto(canvas);
+    canvas.cells({0.0, 0.0}, picture.pixels(), Perspective::width, 1.0);
     canvas.rectangle({0.0, 0.0}, {Perspective::width, 76.0}, Color{0.93, 0.94, 0.95, 0.8});
     canvas.text({24.0, 36.0}, title, {.size = 22.0, .bold = true});
     canvas.text({24.0, 62.0}, subtitle, {.size = 14.0, .color = title_grey});
