@@ -2,9 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <string>
 #include <utility>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <gnomon/scene/primitives.hpp>
 #include <gnomon/sun/position.hpp>
@@ -170,6 +175,140 @@ TEST(PlanScan, TakesASunOnTheHorizon) {
             const bool dark = std::abs(grid.center_m(0, row).y) < 3.0;
             const auto begin = mask.begin() + std::ptrdiff_t{row} * grid.columns;
             EXPECT_EQ(std::count(begin, begin + grid.columns, 0), dark ? grid.columns : 0) << row;
+        }
+    }
+}
+
+// Whether a ray meets a triangle: 1 for certain, 0 for certain not, -1 too near its edge to say.
+int meets(const glm::dvec3& from, const glm::dvec3& towards, const std::array<glm::dvec3, 3>& at) {
+    const glm::dvec3 ab = at[1] - at[0];
+    const glm::dvec3 ac = at[2] - at[0];
+    const glm::dvec3 p = glm::cross(towards, ac);
+    const double det = glm::dot(ab, p);
+    if (std::abs(det) < 1e-7 * glm::length(ab) * glm::length(ac)) return -1;
+    const glm::dvec3 to = from - at[0];
+    const double b = glm::dot(to, p) / det;
+    const glm::dvec3 q = glm::cross(to, ab);
+    const double c = glm::dot(towards, q) / det;
+    const double inside = std::min({b, c, 1.0 - b - c});
+    const double ahead = glm::dot(ac, q) / det;
+    if (inside < -1e-6 || ahead < -1e-6) return 0;
+    return inside > 1e-6 && ahead > 1e-6 ? 1 : -1;
+}
+
+// By rays through all triangles; 2 where that does not say.
+PlanMask traced(const std::vector<shadows::Caster>& casters, const PlanGrid& grid,
+                const glm::dvec3& sun) {
+    std::vector<std::array<glm::dvec3, 3>> triangles;
+    for (const shadows::Caster& caster : casters) {
+        for (const auto& face : caster.mesh->faces()) {
+            auto& triangle = triangles.emplace_back();
+            for (std::size_t k = 0; k < 3; ++k) {
+                const glm::dvec4 local(glm::dvec3(caster.mesh->positions()[face[k]]), 1.0);
+                triangle[k] = plan_from_world(glm::dvec3(caster.world_from_local * local));
+            }
+        }
+    }
+    PlanMask mask(grid.cell_count());
+    for (std::uint32_t i = 0; i < mask.size(); ++i) {
+        const glm::dvec3 from(grid.center_m(i % grid.columns, i / grid.columns), grid.height_m);
+        bool is_open = true;
+        bool is_certain = true;
+        for (std::size_t t = 0; t < triangles.size() && is_open; ++t) {
+            const int met = meets(from, sun, triangles[t]);
+            is_open = met != 1;
+            is_certain = is_certain && met != -1;
+        }
+        mask[i] = !is_open ? 0 : is_certain ? 1 : 2;
+    }
+    return mask;
+}
+
+shadows::Caster random_caster(std::mt19937& random) {
+    const auto between = [&](double least, double most) {
+        return std::uniform_real_distribution<double>(least, most)(random);
+    };
+    // Whole and half metres often, so that edges run through centres and along rows.
+    const auto place = [&](double least, double most) {
+        const double at = between(least, most);
+        return random() % 2 == 0 ? std::round(at * 2.0) / 2.0 : at;
+    };
+    const int kind = static_cast<int>(random() % 3);
+    scene::Mesh mesh;
+    if (kind == 0) {
+        mesh = scene::make_box(glm::dvec3(place(1, 6), place(1, 8), place(1, 6)));
+    } else if (kind == 1) {
+        mesh = scene::make_torus(static_cast<float>(between(1, 4)), 0.7F, 12, 6);
+    } else {
+        for (std::uint32_t i = 0; i < 18; ++i) {
+            mesh.positions.emplace_back(glm::dvec3(place(-4, 4), place(-3, 5), place(-4, 4)));
+            mesh.indices.push_back(i);
+        }
+    }
+    shadows::Caster caster = test::caster_of(1, mesh, {place(-8, 8), place(-8, 8), place(-1, 6)});
+    if (random() % 2 == 0) {
+        const double turn = between(0, 6);
+        caster.world_from_local =
+            glm::rotate(caster.world_from_local, turn,
+                        random() % 2 == 0 ? glm::dvec3(0, 1, 0)
+                                          : glm::normalize(glm::dvec3(1, between(-1, 1), 0.3)));
+    }
+    if (random() % 4 == 0) caster.world_from_local[2] *= -1.0;
+    return caster;
+}
+
+TEST(PlanScan, AgreesWithRaysThroughRandomScenes) {
+    constexpr unsigned first_seed = 20260321;
+    const PlanGrid grid = must(make_grid({-12.0, -10.0}, {12.0, 10.0}, 0.5, 0.25, 4096));
+    std::size_t undecided = 0;
+    std::size_t dark = 0;
+    for (unsigned seed = first_seed; seed < first_seed + 60; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        std::mt19937 random(seed);
+        std::vector<shadows::Caster> casters;
+        for (unsigned i = 0; i <= seed % 4; ++i) casters.push_back(random_caster(random));
+        const double azimuth = std::uniform_real_distribution<double>(0.0, 360.0)(random);
+        const double altitude = std::uniform_real_distribution<double>(3.0, 90.0)(random);
+        const glm::dvec3 sun = seed % 5 == 0
+                                   ? glm::dvec3(0.0, 0.0, 1.0)
+                                   : sun::towards_sun(azimuth * degree, altitude * degree);
+        const PlanMask mask = scanned(casters, grid, sun);
+        const PlanMask truth = traced(casters, grid, sun);
+        for (std::size_t i = 0; i < mask.size(); ++i) {
+            undecided += truth[i] == 2 ? 1 : 0;
+            dark += truth[i] == 0 ? 1 : 0;
+            if (truth[i] == 2) continue;
+            ASSERT_EQ(mask[i], truth[i]) << "cell " << i;
+        }
+    }
+    EXPECT_GT(dark, 60U * 100U);
+    EXPECT_LT(undecided, 60U * grid.cell_count() / 5);
+}
+
+// Houses wall to wall, the walls through centres of rows and of columns: no light between them,
+// wherever rounding puts each.
+TEST(PlanScan, LeavesNoCrackBetweenHousesThatTouch) {
+    const scene::Mesh house = scene::make_box({2.0F, 6.0F, 2.0F});
+    for (const glm::dvec3& shift :
+         {glm::dvec3(0.0), glm::dvec3(533987.7, 5350123.3, 255.4), glm::dvec3(0.1, 0.7, 0.3)}) {
+        std::vector<shadows::Caster> row;
+        for (std::uint64_t i = 0; i < 16; ++i) {
+            const auto x = static_cast<double>(i % 4);
+            const auto y = static_cast<double>(i / 4);
+            row.push_back(
+                test::caster_of(i, house, shift + glm::dvec3(2.0 * x - 3.0, 2.0 * y - 3.0, 3.0)));
+        }
+        const PlanGrid grid = must(
+            make_grid(glm::dvec2(shift) - 8.5, glm::dvec2(shift) + 8.5, 1.0, shift.z + 0.5, 4096));
+        for (const glm::dvec3& sun : {glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(0.3, 0.0, 1.0),
+                                      glm::dvec3(0.0, -0.3, 1.0), glm::dvec3(0.2, 0.3, 1.0)}) {
+            const PlanMask mask = scanned(row, grid, sun);
+            for (std::uint32_t i = 0; i < mask.size(); ++i) {
+                const glm::dvec2 at =
+                    glm::abs(grid.center_m(i % grid.columns, i / grid.columns) - glm::dvec2(shift));
+                if (std::max(at.x, at.y) > 3.5) continue;
+                EXPECT_EQ(mask[i], 0) << i;
+            }
         }
     }
 }
