@@ -129,7 +129,9 @@ Result<PlanPicture> draw_profile(const Study& study, const DayResult& day) {
     }
     canvas.cells(frame.corner(), colors, grid.columns, frame.scale());
     const glm::dvec2 legend = frame.legend();
-    canvas.text(legend + glm::dvec2(0.0, 14.0), "Outline of the shadow at",
+    const bool has_sun = day.no_sun.empty();
+    canvas.text(legend + glm::dvec2(0.0, 14.0),
+                has_sun ? "Outline of the shadow at" : "No sun on this day",
                 {.size = 13.0, .bold = true});
     double y = 28.0;
     for (const ProfileStep& outline : day.outlines) {
@@ -141,9 +143,11 @@ Result<PlanPicture> draw_profile(const Study& study, const DayResult& day) {
     }
     y += 8.0;
     swatch(canvas, legend + glm::dvec2(0.0, y), covered, "under a roof");
-    canvas.text(legend + glm::dvec2(0.0, y + 36.0), "Areas: the deeper the colour,",
-                {.size = 12.0});
-    canvas.text(legend + glm::dvec2(0.0, y + 52.0), "the longer in shadow", {.size = 12.0});
+    if (has_sun) {
+        canvas.text(legend + glm::dvec2(0.0, y + 36.0), "Areas: the deeper the colour,",
+                    {.size = 12.0});
+        canvas.text(legend + glm::dvec2(0.0, y + 52.0), "the longer in shadow", {.size = 12.0});
+    }
     frame.draw(canvas, study, "Shadow profile: " + study.model, day_subtitle(study, day));
     auto png = canvas.png();
     if (!png) return forward_error(png);
@@ -166,7 +170,8 @@ Result<PlanPicture> draw_hours(const Study& study, const DayResult& day) {
     }
     const glm::dvec2 legend = frame.legend();
     canvas.text(legend + glm::dvec2(0.0, 14.0), "Hours of sun", {.size = 13.0, .bold = true});
-    const double bar = std::min(320.0, std::max(frame.size().y, 420.0) - 180.0);
+    const double bar =
+        most_h > 0.0 ? std::min(320.0, std::max(frame.size().y, 420.0) - 180.0) : 0.0;
     color_bar(canvas, legend + glm::dvec2(0.0, 30.0), bar, heat_colors, 0.0, most_h);
     swatch(canvas, legend + glm::dvec2(0.0, bar + 48.0), covered, "under a roof");
     canvas.text(legend + glm::dvec2(0.0, bar + 86.0),

@@ -66,11 +66,12 @@ Result<std::vector<std::byte>> with_legend(const Perspective& picture, const std
     canvas.text({24.0, 36.0}, title, {.size = 22.0, .bold = true});
     canvas.text({24.0, 62.0}, subtitle, {.size = 14.0, .color = title_grey});
     const glm::dvec2 legend(Perspective::width + 20.0, 110.0);
-    color_bar(canvas, legend, 420.0, heat_colors, 0.0, most_h);
-    if (!(most_h > 0.0)) canvas.text(legend, "no sun", {.size = 12.0});
+    const double bar = most_h > 0.0 ? 420.0 : 0.0;
+    color_bar(canvas, legend, bar, heat_colors, 0.0, most_h);
+    if (bar == 0.0) canvas.text(legend, "no sun on this day", {.size = 11.0});
     if (has_grey) {
-        canvas.text(legend + glm::dvec2(0.0, 452.0), "grey: under a roof,", {.size = 11.0});
-        canvas.text(legend + glm::dvec2(0.0, 468.0), "or not asked", {.size = 11.0});
+        canvas.text(legend + glm::dvec2(0.0, bar + 32.0), "grey: under a roof,", {.size = 11.0});
+        canvas.text(legend + glm::dvec2(0.0, bar + 48.0), "or not asked", {.size = 11.0});
     }
     return canvas.png();
 }
