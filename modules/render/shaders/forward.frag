@@ -7,6 +7,9 @@ layout(set = 3, binding = 5) uniform sampler2D light_mask;
 
 uint mask;
 
-void look_up_light() { mask = uint(texelFetch(light_mask, ivec2(gl_FragCoord.xy), 0).r * 255.0 + 0.5); }
+uint look_up_light() {
+    mask = uint(texelFetch(light_mask, ivec2(gl_FragCoord.xy), 0).r * 255.0 + 0.5);
+    return ~mask;
+}
 
 float arriving(uint light) { return float(1u - (mask >> light & 1u)); }

@@ -1,13 +1,17 @@
 // A surface with all lights of a round at once, each where the light mask lets it arrive. GGX with Smith's shadowing and
 // Schlick's Fresnel: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007). Without a
 // light: a sky above, a bounce from below, emission.
+//
+// No loop and no branch hangs on uniforms alone: lavapipe of Mesa 22.3 would compile the shader anew for every draw with
+// their values put in, and keep it until the pipeline is gone.
 #include "surface.glsl"
 #include "frame.glsl"
 
 layout(location = 0) out vec4 radiance;
 
-// Which lights of the round arrive, and how much of each. The shader that includes this defines them.
-void look_up_light();
+// Which lights of the round arrive, a bit each (those beyond its lights mean nothing), and how much of each. The shader
+// that includes this defines them.
+uint look_up_light();
 float arriving(uint light);
 
 const float pi = 3.14159265;
@@ -22,14 +26,14 @@ struct Surface {
     vec3 to_viewer;
 };
 
-// An orthographic camera looks along -Z everywhere.
+// An orthographic camera looks along -Z everywhere: up_view.w is 0 then, else 1.
 Surface surface_here() {
     Surface s;
     s.base_color = color_here(depth_range.xy).rgb;
     s.position = position_view;
     s.metallic = parameters.x;
     s.roughness = clamp(parameters.y, 0.06, 1.0);
-    s.to_viewer = up_view.w > 0.0 ? normalize(-s.position) : vec3(0.0, 0.0, 1.0);
+    s.to_viewer = normalize(mix(vec3(0.0, 0.0, 1.0), -s.position, up_view.w));
     vec3 ng = cross(dFdx(s.position), dFdy(s.position));
     ng = dot(ng, ng) > 0.0 ? normalize(ng) : s.to_viewer;
     s.geometric_normal = dot(ng, s.to_viewer) < 0.0 ? -ng : ng;
@@ -91,9 +95,11 @@ vec3 lit(Surface s, Light light) {
 
 void main() {
     Surface s = surface_here();
-    vec3 sum = lit_by.y != 0u ? unlit(s) : vec3(0.0);
-    look_up_light();
-    for (uint i = 0u; i < lit_by.x; ++i) {
+    vec3 sum = unlit(s) * float(lit_by.y);
+    // As often as lights arrive here.
+    uint rest = look_up_light() & ((1u << lit_by.x) - 1u);
+    for (; rest != 0u; rest &= rest - 1u) {
+        uint i = uint(findLSB(rest));
         float share = arriving(i);
         if (share > 0.0) sum += share * lit(s, lights[i]);
     }

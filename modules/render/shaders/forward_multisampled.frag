@@ -22,11 +22,12 @@ vec4 share(ivec2 pixel) {
 vec4 shares;
 uvec4 masks;
 
-void look_up_light() {
+uint look_up_light() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     shares = share(pixel);
     masks = uvec4(vec4(texelFetch(light_mask, pixel, 0).r, texelFetch(light_mask, pixel, 1).r,
                        texelFetch(light_mask, pixel, 2).r, texelFetch(light_mask, pixel, 3).r) * 255.0 + 0.5);
+    return ~(masks.x & masks.y & masks.z & masks.w);
 }
 
 float arriving(uint light) { return dot(shares, vec4(1u - (masks >> light & 1u))); }

@@ -11,7 +11,7 @@ struct Light {
 layout(set = 1, binding = 0) uniform Frame {
     vec4 sky;          // rgb, radiance
     vec4 ground;       // rgb
-    vec4 up_view;      // xyz the world's up, w > 0: perspective
+    vec4 up_view;      // xyz the world's up, w 1: perspective, 0: orthographic
     vec4 depth_range;  // xy
     uvec4 lit_by;      // x lights in this round, y 1: and by what comes without a light
     Light lights[8];
