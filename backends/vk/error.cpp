@@ -11,7 +11,9 @@ namespace {
 
 ErrorCode code_of(VkResult result) {
     switch (result) {
-        case VK_ERROR_DEVICE_LOST: return ErrorCode::DeviceLost;
+        case VK_ERROR_DEVICE_LOST:
+        // Where the swapchain could make no other one, a device of another window helps.
+        case VK_ERROR_SURFACE_LOST_KHR: return ErrorCode::DeviceLost;
         case VK_ERROR_OUT_OF_HOST_MEMORY:
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
         case VK_ERROR_OUT_OF_POOL_MEMORY:

@@ -27,9 +27,54 @@ bool is_lost(VkResult result) { return result == VK_ERROR_OUT_OF_DATE_KHR; }
 Swapchain::~Swapchain() {
     device_.fn.DeviceWaitIdle(device_.handle);
     destroy_images();
+    destroy_swapchain();
+}
+
+void Swapchain::destroy_swapchain() {
     if (handle_ != VK_NULL_HANDLE) {
         device_.fn.DestroySwapchainKHR(device_.handle, handle_, nullptr);
     }
+    handle_ = VK_NULL_HANDLE;
+    stale_ = true;
+}
+
+tl::unexpected<Error> Swapchain::failed(VkResult result, const char* call) {
+    surface_lost_ = surface_lost_ || result == VK_ERROR_SURFACE_LOST_KHR;
+    return failure(result, call, subject);
+}
+
+Status Swapchain::renew_surface() {
+    if (const Status finished = queue_.finish(); !finished) {
+        return finished;
+    }
+    if (const VkResult result = device_.fn.DeviceWaitIdle(device_.handle); result != VK_SUCCESS) {
+        return failure(result, "vkDeviceWaitIdle", subject);
+    }
+    destroy_images();
+    destroy_swapchain();
+    Instance& instance = *device_.instance;
+    if (instance.surface != VK_NULL_HANDLE) {
+        instance.fn.DestroySurfaceKHR(instance.handle, instance.surface, nullptr);
+    }
+    instance.surface = reinterpret_cast<VkSurfaceKHR>(window_.create_surface(instance.handle));
+    if (instance.surface == VK_NULL_HANDLE) {
+        return fail(ErrorCode::DeviceLost,
+                    "The window's Vulkan surface was lost, and the window gave no other one: "
+                    "Window::create_surface returned 0.");
+    }
+    VkBool32 presents = VK_FALSE;
+    const VkResult result = instance.fn.GetPhysicalDeviceSurfaceSupportKHR(
+        device_.adapter.handle, device_.adapter.queue_family, instance.surface, &presents);
+    if (result != VK_SUCCESS) {
+        return failure(result, "vkGetPhysicalDeviceSurfaceSupportKHR", subject);
+    }
+    if (presents == VK_FALSE) {
+        return fail(ErrorCode::DeviceLost,
+                    "The window's Vulkan surface was lost, and the device cannot present to the "
+                    "other one that the window gave.");
+    }
+    surface_lost_ = false;
+    return {};
 }
 
 void Swapchain::destroy_images() {
@@ -55,7 +100,7 @@ Result<VkSemaphore> Swapchain::make_semaphore() const {
     return semaphore;
 }
 
-Result<VkSurfaceFormatKHR> Swapchain::choose_format(bool srgb) const {
+Result<VkSurfaceFormatKHR> Swapchain::choose_format(bool srgb) {
     const auto get_formats = device_.instance->fn.GetPhysicalDeviceSurfaceFormatsKHR;
     std::uint32_t count = 0;
     VkResult result =
@@ -66,7 +111,7 @@ Result<VkSurfaceFormatKHR> Swapchain::choose_format(bool srgb) const {
             get_formats(device_.adapter.handle, device_.instance->surface, &count, formats.data());
     }
     if (result < VK_SUCCESS) {
-        return failure(result, "vkGetPhysicalDeviceSurfaceFormatsKHR", subject);
+        return failed(result, "vkGetPhysicalDeviceSurfaceFormatsKHR");
     }
     // A blit converts between linear and sRGB where the two formats differ in that, and the bytes
     // are to arrive as they are: an sRGB texture takes an sRGB swapchain, any other one that is
@@ -100,7 +145,7 @@ Result<bool> Swapchain::prepare(bool srgb) {
     if (const VkResult result = device_.instance->fn.GetPhysicalDeviceSurfaceCapabilitiesKHR(
             device_.adapter.handle, device_.instance->surface, &capabilities);
         result != VK_SUCCESS) {
-        return failure(result, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR", subject);
+        return failed(result, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
     }
     VkExtent2D extent = capabilities.currentExtent;
     if (extent.width == std::numeric_limits<std::uint32_t>::max()) {
@@ -164,13 +209,9 @@ Status Swapchain::recreate(const VkSurfaceCapabilitiesKHR& capabilities, VkExten
     info.oldSwapchain = handle_;
     VkSwapchainKHR fresh = VK_NULL_HANDLE;
     const VkResult result = device_.fn.CreateSwapchainKHR(device_.handle, &info, nullptr, &fresh);
-    if (handle_ != VK_NULL_HANDLE) {
-        device_.fn.DestroySwapchainKHR(device_.handle, handle_, nullptr);
-    }
-    handle_ = VK_NULL_HANDLE;
-    stale_ = true;
+    destroy_swapchain();
     if (result != VK_SUCCESS) {
-        return failure(result, "vkCreateSwapchainKHR", subject);
+        return failed(result, "vkCreateSwapchainKHR");
     }
     handle_ = fresh;
     format_ = format->format;
@@ -251,6 +292,19 @@ Status Swapchain::blit(Texture& texture, Image& image) {
 }
 
 Status Swapchain::present(Texture& texture) {
+    if (!surface_lost_) {
+        const Status shown = try_to_present(texture);
+        if (!surface_lost_) {
+            return shown;
+        }
+    }
+    if (const Status renewed = renew_surface(); !renewed) {
+        return renewed;
+    }
+    return try_to_present(texture);
+}
+
+Status Swapchain::try_to_present(Texture& texture) {
     std::uint32_t index = 0;
     for (int attempt = 0;; ++attempt) {
         const Result<bool> ready = prepare(texture.format == gpu::Format::Rgba8UnormSrgb);
@@ -269,7 +323,7 @@ Status Swapchain::present(Texture& texture) {
         }
         stale_ = true;
         if (!is_lost(result)) {
-            return failure(result, "vkAcquireNextImageKHR", subject);
+            return failed(result, "vkAcquireNextImageKHR");
         }
     }
     Image& image = images_[index];
@@ -293,7 +347,7 @@ Status Swapchain::present(Texture& texture) {
     if (result == VK_SUBOPTIMAL_KHR || is_lost(result)) {
         stale_ = true;
     } else if (result != VK_SUCCESS) {
-        return failure(result, "vkQueuePresentKHR", subject);
+        return failed(result, "vkQueuePresentKHR");
     }
     return {};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The window's swapchain. Presenting blits a finished texture onto the next image; the swapchain
-// follows the window's size by itself.
+// follows the window's size by itself, and a surface that is lost is made anew.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,8 @@ public:
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    /// Does nothing and succeeds while the window is minimised.
+    /// Does nothing and succeeds while the window is minimised. ErrorCode::DeviceLost also where
+    /// the surface was lost and the window gives no other one.
     [[nodiscard]] Status present(Texture& texture);
 
 private:
@@ -29,11 +30,17 @@ private:
         Tracker tracker;
     };
 
+    [[nodiscard]] Status try_to_present(Texture& texture);
+    /// Another surface of the same window; the swapchain is to be made anew.
+    [[nodiscard]] Status renew_surface();
+    /// The error of a call; remembers that the surface was lost.
+    [[nodiscard]] tl::unexpected<Error> failed(VkResult result, const char* call);
+    void destroy_swapchain();
     /// True when there is a swapchain of the window's size that holds the texture's kind of bytes.
     [[nodiscard]] Result<bool> prepare(bool srgb);
     [[nodiscard]] Status recreate(const VkSurfaceCapabilitiesKHR& capabilities, VkExtent2D extent,
                                   bool srgb);
-    [[nodiscard]] Result<VkSurfaceFormatKHR> choose_format(bool srgb) const;
+    [[nodiscard]] Result<VkSurfaceFormatKHR> choose_format(bool srgb);
     [[nodiscard]] Status take_images();
     [[nodiscard]] Result<VkSemaphore> make_semaphore() const;
     void destroy_images();
@@ -47,6 +54,7 @@ private:
     VkExtent2D extent_{};
     bool srgb_ = false;
     bool stale_ = true;
+    bool surface_lost_ = false;
     std::vector<Image> images_;
     std::vector<VkSemaphore> acquired_;  // taken in turn, one more than there are images
     std::size_t turn_ = 0;
