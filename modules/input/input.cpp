@@ -51,7 +51,7 @@ void Input::begin_frame() {
     text.clear();
     dropped_files.clear();
     commands.clear();
-    redraw_requested = false;
+    focus_lost = redraw_requested = false;
 }
 
 void Input::press(Key key) {
@@ -83,11 +83,16 @@ void Input::release_all() {
     buttons_down_.reset();
 }
 
+void Input::lose_focus() {
+    release_all();
+    focus_lost = true;
+}
+
 bool Input::anything_happened() const {
     return keys_pressed_.any() || keys_repeated_.any() || buttons_pressed_.any() ||
            buttons_released_.any() || cursor_motion_px() != glm::dvec2(0.0) ||
            scroll != glm::dvec2(0.0) || !text.empty() || !dropped_files.empty() ||
-           !commands.empty() || redraw_requested || close_requested;
+           !commands.empty() || focus_lost || redraw_requested || close_requested;
 }
 
 }  // namespace gnomon::input

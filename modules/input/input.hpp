@@ -67,8 +67,11 @@ public:
     void press(MouseButton button);
     void release(MouseButton button);
     void move_cursor(const glm::dvec2& position_px);
-    /// Everything that is held is let go: the window has lost the keyboard.
+    /// Everything that is held is let go.
     void release_all();
+    /// The keyboard is another window's now: everything that is held is let go, and focus_lost is
+    /// set.
+    void lose_focus();
 
     [[nodiscard]] bool is_down(Key key) const { return keys_down_[at(key)]; }
     /// Went down this frame; also where it was let go within the same frame.
@@ -100,6 +103,7 @@ public:
     std::u32string text;     ///< characters typed this frame
     std::vector<std::string> dropped_files;
     std::vector<std::string> commands;  ///< of a script: what only the program understands
+    bool focus_lost = false;            ///< this frame
     bool redraw_requested = false;      ///< what the window showed has been lost
     bool close_requested = false;       ///< stays
     std::optional<Gamepad> gamepad;     ///< the first one, now; none: none is connected

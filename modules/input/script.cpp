@@ -137,6 +137,8 @@ Status Script::read(const Line& line, std::span<const std::string_view> commands
         event.kind = line.word == "type" ? Kind::Type : Kind::Drop;
         event.text = line.rest;
         if (event.text.empty()) return line.wrong(fmt::format("{} what?", line.word));
+    } else if (line.word == "unfocus") {
+        event.kind = Kind::Unfocus;
     } else if (line.word == "close") {
         event.kind = Kind::Close;
     } else if (std::ranges::find(commands, line.word) != commands.end()) {
@@ -149,8 +151,8 @@ Status Script::read(const Line& line, std::span<const std::string_view> commands
             }
         }
     } else {
-        std::vector<std::string_view> known{"move", "press",  "release", "tap",  "click",
-                                            "type", "scroll", "drop",    "close"};
+        std::vector<std::string_view> known{"move",   "press", "release", "tap",     "click",
+                                            "scroll", "type",  "drop",    "unfocus", "close"};
         known.insert(known.end(), commands.begin(), commands.end());
         return line.wrong(fmt::format("there is no event \"{}\"; there are {}.", line.word,
                                       fmt::join(known, ", ")));
@@ -199,6 +201,7 @@ void Script::play(std::uint64_t frame, Input& input) {
             case Kind::Scroll: input.scroll += event.numbers; break;
             case Kind::Type: input.text += from_utf8(event.text); break;
             case Kind::Drop: input.dropped_files.push_back(event.text); break;
+            case Kind::Unfocus: input.lose_focus(); break;
             case Kind::Close: input.close_requested = true; break;
             case Kind::Command: input.commands.push_back(event.text); break;
         }

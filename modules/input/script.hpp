@@ -11,6 +11,7 @@
 //     15 scroll 1            notches, away from the user; up to 1000 either way
 //     20 type hello          characters; a line's end ends them
 //     25 drop model.glb      a file let go over the window
+//     28 unfocus            the keyboard goes to another window: what is held is let go
 //     30 close
 //
 // Frames ascend. What else a program understands it names when it reads the script.
@@ -56,6 +57,7 @@ private:
         Scroll,
         Type,
         Drop,
+        Unfocus,
         Close,
         Command
     };

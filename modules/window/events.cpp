@@ -121,7 +121,7 @@ void report_events(GLFWwindow* window, input::Input& input) {
                                  [](GLFWwindow* w) { input_of(w).redraw_requested = true; });
     glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { input_of(w).close_requested = true; });
     glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
-        if (focused == GLFW_FALSE) input_of(w).release_all();
+        if (focused == GLFW_FALSE) input_of(w).lose_focus();
     });
 }
 

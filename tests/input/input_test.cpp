@@ -65,11 +65,26 @@ TEST(Input, a_window_without_the_keyboard_holds_nothing) {
     input.press(Key::LeftShift);
     input.press(MouseButton::Right);
     input.begin_frame();
-    input.release_all();
+    EXPECT_FALSE(input.focus_lost);
+    input.lose_focus();
+    EXPECT_TRUE(input.focus_lost);
+    EXPECT_TRUE(input.anything_happened());
     EXPECT_FALSE(input.shift());
     EXPECT_FALSE(input.is_down(MouseButton::Right));
     EXPECT_TRUE(input.was_released(MouseButton::Right));
     EXPECT_FALSE(input.was_released(MouseButton::Left));
+    input.begin_frame();
+    EXPECT_FALSE(input.focus_lost);
+    EXPECT_FALSE(input.anything_happened());
+}
+
+TEST(Input, what_is_let_go_at_once_lost_no_keyboard) {
+    Input input;
+    input.press(Key::W);
+    input.begin_frame();
+    input.release_all();
+    EXPECT_FALSE(input.is_down(Key::W));
+    EXPECT_FALSE(input.focus_lost);
 }
 
 TEST(Input, every_key_has_a_name_of_its_own) {

@@ -27,6 +27,8 @@ TEST(Script, plays_events_in_their_frames) {
         "3 release left\n"
         "3 drop a model.glb\n"
         "4 type h\xC3\xA9\n"
+        "4 press W\n"
+        "5 unfocus\n"
         "5 close");
     EXPECT_EQ(script.last_frame(), 5U);
     Input input;
@@ -42,6 +44,7 @@ TEST(Script, plays_events_in_their_frames) {
         if (input.scroll.y != 0.0) what += "scroll ";
         if (!input.text.empty()) what += "text ";
         for (const std::string& file : input.dropped_files) what += file + " ";
+        if (input.focus_lost) what += input.is_down(Key::W) ? "lost held " : "lost ";
         if (input.close_requested) what += "close ";
         seen.push_back(what);
         if (frame == 4) {
@@ -50,7 +53,7 @@ TEST(Script, plays_events_in_their_frames) {
         EXPECT_EQ(input.cursor_px(), glm::dvec2(640.0, 360.5));
     }
     EXPECT_THAT(seen, ElementsAre("", "left ", "space held scroll ", "released a model.glb ",
-                                  "text ", "close "));
+                                  "text ", "lost close "));
 }
 
 TEST(Script, hands_a_programs_own_words_to_it) {

@@ -11,4 +11,8 @@ namespace gnomon::test {
 /// Sends a key to the window below the pixel, as a keyboard would, through the server.
 void send_key(int x, int y, unsigned long keysym, bool pressed);
 
+/// Gives the keyboard to the window below the pixel, as a desktop would, or to none.
+void give_focus(int x, int y);
+void take_focus();
+
 }  // namespace gnomon::test

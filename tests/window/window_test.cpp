@@ -143,6 +143,23 @@ TEST_P(WindowOn, reports_keys) {
     EXPECT_FALSE(window->input().close_requested);
 }
 
+TEST_P(WindowOn, lets_go_and_says_so_when_the_keyboard_is_anothers) {
+    auto window = open();
+    if (!window) GTEST_SKIP() << why_none_;
+    expect_on_screen(*window, {10, 200, 30});  // it is there
+    test::give_focus(80, 60);
+    for (int i = 0; i < 10; ++i) EXPECT_FALSE(window->poll(0.01).focus_lost);
+    test::send_key(80, 60, 'w', true);
+    for (int i = 0; i < 100 && !window->input().is_down(input::Key::W); ++i) window->poll(0.01);
+    ASSERT_TRUE(window->input().is_down(input::Key::W));
+    test::take_focus();
+    bool lost = false;
+    for (int i = 0; i < 100 && !lost; ++i) lost = window->poll(0.01).focus_lost;
+    EXPECT_TRUE(lost);
+    EXPECT_FALSE(window->input().is_down(input::Key::W));
+    EXPECT_FALSE(window->poll().focus_lost) << "once";
+}
+
 TEST_P(WindowOn, fills_the_screen_and_comes_back) {
     auto window = open();
     if (!window) GTEST_SKIP() << why_none_;
