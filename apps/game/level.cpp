@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 
 #include <fmt/format.h>
 
+#include "files.hpp"
 #include "json_place.hpp"
 
 namespace gnomon::game {
@@ -19,7 +17,7 @@ constexpr double farthest_m = 200.0;
 constexpr std::size_t most_things = 200;
 constexpr std::size_t most_points = 64;
 constexpr double least_step_m = 0.05;  // of paths and walls
-constexpr std::uintmax_t most_bytes = 1U << 20U;
+constexpr std::size_t most_bytes = 1U << 20U;
 
 glm::vec3 color_of(const JsonPlace& place) { return glm::vec3(place.vec3(0.0, 4.0)); }
 
@@ -322,19 +320,9 @@ Result<Level> read_level(std::string_view text, const std::string& file) {
 }
 
 Result<Level> load_level(const std::filesystem::path& path) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) {
-        return fail(ErrorCode::Io, fmt::format("{}: the level cannot be read.", path.string()));
-    }
-    if (size > most_bytes) {
-        return fail(ErrorCode::Io,
-                    fmt::format("{}: the level has {} bytes, but must have {} at most.",
-                                path.string(), size, most_bytes));
-    }
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    return read_level(text, path.string());
+    const auto text = cli::read_file(path, "the level", most_bytes);
+    if (!text) return forward_error(text);
+    return read_level(*text, path.string());
 }
 
 }  // namespace gnomon::game

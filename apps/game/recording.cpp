@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -13,11 +11,13 @@
 
 #include <gnomon/core/expects.hpp>
 
+#include "files.hpp"
+
 namespace gnomon::game {
 
 namespace {
 
-constexpr std::uintmax_t most_recording_bytes = 8U << 20U;
+constexpr std::size_t most_recording_bytes = 8U << 20U;
 constexpr std::string_view magic = "gnomon-replay";
 
 std::string letters_of(const Input& input) {
@@ -197,19 +197,9 @@ Result<Recording> read_recording(std::string_view text, const std::string& file)
 }
 
 Result<Recording> load_recording(const std::filesystem::path& path) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) {
-        return fail(ErrorCode::Io, fmt::format("{}: the recording cannot be read.", path.string()));
-    }
-    if (size > most_recording_bytes) {
-        return fail(ErrorCode::Io,
-                    fmt::format("{}: the recording has {} bytes, but must have {} at most.",
-                                path.string(), size, most_recording_bytes));
-    }
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    return read_recording(text, path.string());
+    const auto text = cli::read_file(path, "the recording", most_recording_bytes);
+    if (!text) return forward_error(text);
+    return read_recording(*text, path.string());
 }
 
 }  // namespace gnomon::game

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "files.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -8,6 +9,8 @@
 #include <system_error>
 #include <vector>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -34,7 +37,61 @@ Status write_bytes(const std::filesystem::path& to, const std::filesystem::path&
     return cannot_write(path, written ? errno : error);
 }
 
+/// Closes it.
+class OpenFile {
+public:
+    // O_NONBLOCK: a pipe that nobody writes to is opened, and then found to be none of ours.
+    explicit OpenFile(const std::filesystem::path& path)
+        : descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+    ~OpenFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    [[nodiscard]] int descriptor() const { return descriptor_; }
+
+private:
+    int descriptor_;
+};
+
 }  // namespace
+
+Result<std::string> read_file(const std::filesystem::path& path, std::string_view what,
+                              std::size_t most_bytes) {
+    const auto cannot_read = [&](int error) {
+        return fail(ErrorCode::Io, fmt::format("{}: {} cannot be read: {}.", path.string(), what,
+                                               std::strerror(error)));
+    };
+    const OpenFile file(path);
+    if (file.descriptor() < 0) return cannot_read(errno);
+    struct stat status {};
+    if (::fstat(file.descriptor(), &status) != 0) return cannot_read(errno);
+    if (!S_ISREG(status.st_mode)) {
+        return fail(ErrorCode::Io,
+                    fmt::format("{}: {} must be a plain file, no folder, pipe or device.",
+                                path.string(), what));
+    }
+    const auto too_large = [&](std::uintmax_t bytes) {
+        return fail(ErrorCode::Io, fmt::format("{}: {} has {} bytes, but must have {} at most.",
+                                               path.string(), what, bytes, most_bytes));
+    };
+    const auto size = static_cast<std::uintmax_t>(status.st_size);
+    if (size > most_bytes) return too_large(size);
+    // It may grow meanwhile.
+    std::string text(static_cast<std::size_t>(size) + 1, '\0');
+    std::size_t read = 0;
+    while (true) {
+        const ::ssize_t got = ::read(file.descriptor(), text.data() + read, text.size() - read);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return cannot_read(errno);
+        if (got == 0) break;
+        read += static_cast<std::size_t>(got);
+        if (read > most_bytes) return too_large(read);
+        if (read == text.size()) text.resize(std::min(2 * text.size(), most_bytes + 1));
+    }
+    text.resize(read);
+    return text;
+}
 
 Status check_writable(const std::filesystem::path& path) {
     std::error_code error;

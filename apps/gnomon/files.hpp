@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// Files that the tool writes: all of a run's to temporary names first, then renamed, so that a
-// reader never meets half a file and a failed run leaves the old ones.
+// Files that the programs read whole, and those that they write: all of a run's to temporary names
+// first, then renamed, so that a reader never meets half a file and a failed run leaves the old
+// ones.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include <gnomon/core/result.hpp>
 
 namespace gnomon::cli {
+
+/// A small file, whole. `what` is what sentences call it: "the recording". Fails with ErrorCode::Io
+/// where it cannot be read, has more than `most_bytes`, or is no plain file: nobody waits for what
+/// comes out of a pipe, or fills the memory with what a device has.
+[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path,
+                                            std::string_view what, std::size_t most_bytes);
 
 /// Whether a file could be written there: cheap, before the work that it is to hold. Fails with
 /// ErrorCode::Io.

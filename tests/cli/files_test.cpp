@@ -3,6 +3,8 @@
 // Output files: whole or not at all.
 #include <gmock/gmock.h>
 
+#include <sys/stat.h>
+
 #include "files.hpp"
 #include "tests/cli/program.hpp"
 
@@ -104,6 +106,42 @@ TEST_F(Files, a_png_has_its_size_in_its_header) {
     const std::string png = read("a.png");
     EXPECT_EQ(png.substr(1, 3), "PNG");
     EXPECT_EQ(png.substr(16, 8), std::string("\0\0\0\3\0\0\0\2", 8));
+}
+
+TEST_F(Files, a_small_file_is_read_whole) {
+    for (const std::string& text :
+         {std::string(), std::string("a\0b\r\n", 5), std::string(64, 'x')}) {
+        write("text", text);
+        EXPECT_EQ(read_file(path("text"), "the text", 64), text);
+    }
+    // It says that it is empty.
+    const auto status = read_file("/proc/self/status", "the status", 1U << 20U);
+    ASSERT_TRUE(status) << status.error().message;
+    EXPECT_THAT(*status, HasSubstr("Pid:"));
+}
+
+TEST_F(Files, what_is_none_or_too_large_is_refused) {
+    write("large", std::string(65, 'x'));
+    std::filesystem::create_directories(path("folder"));
+    // A pipe that nobody will ever write to.
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    const auto refusal = [](const std::filesystem::path& file) {
+        const auto text = read_file(file, "the text", 64);
+        EXPECT_FALSE(text) << file;
+        if (text) return std::string();
+        EXPECT_EQ(text.error().code, ErrorCode::Io);
+        EXPECT_TRUE(text.error().message.starts_with(file.string() + ": the text "));
+        return text.error().message.substr(file.string().size() + 11);
+    };
+    EXPECT_EQ(refusal(path("large")), "has 65 bytes, but must have 64 at most.");
+    EXPECT_EQ(refusal(path("missing")), "cannot be read: No such file or directory.");
+    for (const auto& none : {path("folder"), path("pipe"), std::filesystem::path("/dev/zero")}) {
+        EXPECT_EQ(refusal(none), "must be a plain file, no folder, pipe or device.");
+    }
+    // One that grows without end, of which its size says nothing.
+    const auto grown = read_file("/proc/self/status", "the status", 64);
+    ASSERT_FALSE(grown);
+    EXPECT_THAT(grown.error().message, HasSubstr(", but must have 64 at most."));
 }
 
 }  // namespace

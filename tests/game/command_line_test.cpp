@@ -137,7 +137,7 @@ TEST(CommandLine, refuses_in_one_sentence) {
          "gnomon-game: --replay and --autopilot both say what is pressed; give one of them.\n"},
         {{"--headless", "--replay", "no/such.replay"},
          2,
-         "gnomon-game: no/such.replay: the recording cannot be read.\n"},
+         "gnomon-game: no/such.replay: the recording cannot be read: No such file or directory.\n"},
         {{"--headless", "--autopilot", "--capture", "x", "--size", "12by9"},
          2,
          "gnomon-game: --size is \"12by9\", but must be two numbers from 1 to 16384 with an x "

@@ -276,7 +276,8 @@ TEST(Level, a_file_that_is_not_there_is_named) {
     const auto level = load_level("no/such.json");
     ASSERT_FALSE(level);
     EXPECT_EQ(level.error().code, ErrorCode::Io);
-    EXPECT_EQ(level.error().message, "no/such.json: the level cannot be read.");
+    EXPECT_EQ(level.error().message,
+              "no/such.json: the level cannot be read: No such file or directory.");
 }
 
 TEST(Level, a_name_that_is_not_there_is_answered_with_those_that_are) {

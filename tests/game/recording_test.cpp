@@ -85,7 +85,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Recordings, a_file_that_is_not_there_is_named) {
     const auto read = load_recording("no/such.replay");
     ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().message, "no/such.replay: the recording cannot be read.");
+    EXPECT_EQ(read.error().message,
+              "no/such.replay: the recording cannot be read: No such file or directory.");
 }
 
 }  // namespace

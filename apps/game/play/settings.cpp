@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <system_error>
 
@@ -20,7 +18,7 @@ namespace gnomon::game {
 
 namespace {
 
-constexpr std::uintmax_t most_settings_bytes = 1U << 20U;
+constexpr std::size_t most_settings_bytes = 1U << 20U;
 constexpr const char* settings_format = "gnomon-game-settings 1";
 constexpr std::size_t most_won = 1000;
 
@@ -133,17 +131,9 @@ LoadedSettings load_settings(const std::filesystem::path& path) {
     const auto refuse = [&](std::string why) {
         return LoadedSettings{.settings = {}, .complaint = std::move(why)};
     };
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) {
-        return refuse(fmt::format("{}: the settings cannot be read.", path.string()));
-    }
-    if (size > most_settings_bytes) {
-        return refuse(fmt::format("{}: the settings have {} bytes, but must have {} at most.",
-                                  path.string(), size, most_settings_bytes));
-    }
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    auto settings = read_settings(text, path.string());
+    const auto text = cli::read_file(path, "the settings file", most_settings_bytes);
+    if (!text) return refuse(text.error().message);
+    auto settings = read_settings(*text, path.string());
     if (!settings) return refuse(settings.error().message);
     return {.settings = std::move(*settings), .complaint = {}};
 }
