@@ -2,6 +2,7 @@
 #include "textures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -21,28 +22,78 @@ double noise_at(std::int32_t x, std::int32_t y) {
     return static_cast<double>(h) / 4294967295.0;
 }
 
-/// Between whole numbers.
-double smooth_noise(double x, double y) {
-    const double fx = std::floor(x);
-    const double fy = std::floor(y);
-    const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };
-    const double u = ease(x - fx);
-    const double v = ease(y - fy);
-    const auto ix = static_cast<std::int32_t>(fx);
-    const auto iy = static_cast<std::int32_t>(fy);
-    const double top = glm::mix(noise_at(ix, iy), noise_at(ix + 1, iy), u);
-    const double bottom = glm::mix(noise_at(ix, iy + 1), noise_at(ix + 1, iy + 1), u);
-    return glm::mix(top, bottom, v);
+std::int32_t floor_of(double x) {
+    const auto towards_zero = static_cast<std::int32_t>(x);
+    return x < towards_zero ? towards_zero - 1 : towards_zero;
 }
 
-std::uint8_t srgb(double linear) {
-    const double x = std::clamp(linear, 0.0, 1.0);
-    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(encoded * 255.0));
-}
+/// Noise between whole numbers. Asked from pixel to pixel it mostly stays within one square.
+class SmoothNoise {
+public:
+    double operator()(double x, double y) {
+        const std::int32_t ix = floor_of(x);
+        const std::int32_t iy = floor_of(y);
+        if (ix != x_ || iy != y_ || !knows_) {
+            corners_ = {noise_at(ix, iy), noise_at(ix + 1, iy), noise_at(ix, iy + 1),
+                        noise_at(ix + 1, iy + 1)};
+            x_ = ix;
+            y_ = iy;
+            knows_ = true;
+        }
+        const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };
+        const double u = ease(x - ix);
+        return glm::mix(glm::mix(corners_[0], corners_[1], u),
+                        glm::mix(corners_[2], corners_[3], u), ease(y - iy));
+    }
 
-/// Stones in rows, every other row shifted; how bright a place is, 1 on average.
-double flagstones(double x_m, double z_m) {
+private:
+    std::int32_t x_ = 0;
+    std::int32_t y_ = 0;
+    bool knows_ = false;
+    std::array<double, 4> corners_{};
+};
+
+/// From linear to sRGB bytes, for millions of pixels: from which value on a byte is reached is
+/// looked for once.
+class SrgbBytes {
+public:
+    SrgbBytes() {
+        for (std::size_t byte = 1; byte < first_.size(); ++byte) {
+            double below = first_[byte - 1];
+            double reached = 1.0;
+            for (double middle = 0.5 * (below + reached); middle > below && middle < reached;
+                 middle = 0.5 * (below + reached)) {
+                (encoded(middle) >= byte ? reached : below) = middle;
+            }
+            first_[byte] = reached;
+        }
+        for (std::size_t i = 0; i < guess_.size(); ++i) {
+            const double from = static_cast<double>(i) / parts;
+            const auto above = std::ranges::upper_bound(first_, from);
+            guess_[i] = static_cast<std::uint8_t>(above - first_.begin() - 1);
+        }
+    }
+    [[nodiscard]] std::uint8_t operator()(double linear) const {
+        const double x = std::clamp(linear, 0.0, 1.0);
+        const auto place = static_cast<std::size_t>(x * parts);
+        std::size_t byte = guess_[std::min(place, guess_.size() - 1)];
+        while (byte + 1 < first_.size() && x >= first_[byte + 1]) ++byte;
+        return static_cast<std::uint8_t>(byte);
+    }
+
+private:
+    static std::size_t encoded(double x) {
+        const double value = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+        return static_cast<std::size_t>(std::lround(value * 255.0));
+    }
+    static constexpr int parts = 4096;
+    std::array<double, 256> first_{};          // the least value of each byte
+    std::array<std::uint8_t, parts> guess_{};  // the byte of the least value of each part of 0 to 1
+};
+
+/// Stones in rows, every other row shifted; how bright a place is, 1 on average. `grains` is asked
+/// nine times a metre.
+double flagstones(double x_m, double z_m, SmoothNoise& grains) {
     constexpr double stone_x_m = 0.95;
     constexpr double stone_z_m = 0.62;
     const double row = std::floor(z_m / stone_z_m);
@@ -55,7 +106,7 @@ double flagstones(double x_m, double z_m) {
     const double stone =
         0.82 + 0.36 * noise_at(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
     const double joint = std::clamp((to_joint - 0.012) / 0.03, 0.0, 1.0);
-    const double grain = 0.90 + 0.20 * smooth_noise(x_m * 9.0, z_m * 9.0);
+    const double grain = 0.90 + 0.20 * grains(x_m * 9.0, z_m * 9.0);
     return stone * grain * (0.45 + 0.55 * joint);
 }
 
@@ -111,21 +162,31 @@ std::shared_ptr<const scene::Image> make_ground_image(const Level& level, double
     const glm::dvec2 whole = level.size_m + 2.0 * border_m;
     const glm::dvec3 floor(level.mood.floor);
     const glm::dvec3 earth(level.mood.outside);
+    const SrgbBytes srgb;
+    SmoothNoise border, wear, lumps, crumbs, grains;
     for (std::uint32_t row = 0; row < side; ++row) {
         for (std::uint32_t column = 0; column < side; ++column) {
             const glm::dvec2 at =
                 (glm::dvec2(column + 0.5, row + 0.5) / double{side} - 0.5) * whole;
             const glm::dvec2 beyond = glm::abs(at) - level.size_m * 0.5;
-            const double ragged = 0.5 * smooth_noise(at.x * 1.7, at.y * 1.7) - 0.25;
-            const double paved =
-                std::clamp(0.5 - (std::max(beyond.x, beyond.y) + ragged) / 0.3, 0.0, 1.0);
-            const double worn = 0.80 + 0.4 * smooth_noise(at.x * 0.35 + 11.0, at.y * 0.35);
-            const double soil =
-                0.70 + 0.24 * smooth_noise(at.x * 1.3, at.y * 1.3) +
-                0.20 * smooth_noise(at.x * 4.1, at.y * 4.1 + 5.0) +
-                0.16 * noise_at(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
-            const glm::dvec3 color =
-                glm::mix(earth * soil, floor * flagstones(at.x, at.y), paved) * worn;
+            // Its border is ragged by a quarter of a metre; farther off there is one or the other.
+            const double outside_m = std::max(beyond.x, beyond.y);
+            double paved = outside_m < 0.0 ? 1.0 : 0.0;
+            if (std::abs(outside_m) < 0.45) {
+                const double ragged = 0.5 * border(at.x * 1.7, at.y * 1.7) - 0.25;
+                paved = std::clamp(0.5 - (outside_m + ragged) / 0.3, 0.0, 1.0);
+            }
+            const double worn = 0.80 + 0.4 * wear(at.x * 0.35 + 11.0, at.y * 0.35);
+            const auto soil = [&] {
+                return 0.70 + 0.24 * lumps(at.x * 1.3, at.y * 1.3) +
+                       0.20 * crumbs(at.x * 4.1, at.y * 4.1 + 5.0) +
+                       0.16 * noise_at(static_cast<std::int32_t>(column),
+                                       static_cast<std::int32_t>(row));
+            };
+            glm::dvec3 color(0.0);
+            if (paved < 1.0) color += (1.0 - paved) * earth * soil();
+            if (paved > 0.0) color += paved * floor * flagstones(at.x, at.y, grains);
+            color *= worn;
             image->rgba.push_back(srgb(color.r));
             image->rgba.push_back(srgb(color.g));
             image->rgba.push_back(srgb(color.b));
@@ -142,6 +203,7 @@ std::shared_ptr<const scene::Image> make_grain_image(Grain grain) {
     image->width = side;
     image->height = side;
     image->rgba.reserve(std::size_t{4} * side * side);
+    const SrgbBytes srgb;
     for (std::uint32_t row = 0; row < side; ++row) {
         for (std::uint32_t column = 0; column < side; ++column) {
             const double u_m = (column + 0.5) / side * grain_tile_m;
