@@ -61,13 +61,15 @@ double point_illuminance(const Segment& where, double size, const glm::dvec3& po
 }  // namespace
 
 LightChoice choose_shadowed_lights(const scene::Scene& scene, const scene::Bounds& bounds,
-                                   const shadows::View& view, std::size_t most) {
+                                   const shadows::View& view, std::size_t most,
+                                   std::span<const scene::Entity> off) {
     const Segment where = axis_within(bounds, view);
     const double size = bounds.empty() ? 1.0 : bounds.diagonal();
     std::vector<scene::Entity> lights;
     std::vector<double> illuminance;
     const scene::Registry& registry = scene.registry;
     const auto add = [&](scene::Entity entity, double lux) {
+        if (std::ranges::find(off, entity) != off.end()) return;
         lights.push_back(entity);
         illuminance.push_back(lux);
     };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <gnomon/scene/scene.hpp>
@@ -13,8 +14,8 @@
 #pragma GCC visibility push(default)
 namespace gnomon::render {
 
-/// All lights of a scene, each in one of two lists, in the order in which ShadowAdapter submits
-/// them.
+/// The lights of a scene, each in one of two lists, in the order in which ShadowAdapter submits
+/// them; those that are off in none.
 struct LightChoice {
     std::vector<scene::Entity> shadowed;    ///< those that cast shadows
     std::vector<scene::Entity> unshadowed;  ///< the rest
@@ -27,7 +28,8 @@ struct LightChoice {
 /// equals the earlier one. World transforms are up to date. Cost: linear in the lights.
 [[nodiscard]] LightChoice choose_shadowed_lights(const scene::Scene& scene,
                                                  const scene::Bounds& bounds,
-                                                 const shadows::View& view, std::size_t most);
+                                                 const shadows::View& view, std::size_t most,
+                                                 std::span<const scene::Entity> off = {});
 
 }  // namespace gnomon::render
 #pragma GCC visibility pop

@@ -18,8 +18,6 @@ namespace gnomon::cli::test {
 
 namespace {
 
-constexpr unsigned longest_run_s = 120;
-
 std::string contents(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     EXPECT_TRUE(stream) << path;
@@ -59,7 +57,7 @@ Outcome ProgramTest::run(const Arguments& arguments) const {
     argv.push_back(nullptr);
     const pid_t child = ::fork();
     if (child == 0) {
-        ::alarm(longest_run_s);
+        ::alarm(longest_run_s_);
         // Leaks of drivers are not ours; without a driver every leak is.
         if (uses_a_driver(arguments)) ::setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
         if (::chdir(folder_.c_str()) != 0) ::_exit(126);

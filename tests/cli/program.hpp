@@ -67,6 +67,9 @@ protected:
     /// Whether the backend draws here; says why not.
     [[nodiscard]] bool draws(const std::string& backend) const;
 
+    /// After so many seconds a run is killed.
+    unsigned longest_run_s_ = 120;
+
 private:
     std::filesystem::path folder_;
 };

@@ -61,6 +61,7 @@ const std::vector<Layer>& layers() {
          {"modules/ui/"},
          {"gpu", "input"},
          {"glm/", "tl/", "fmt/", "imgui.h", "gnomon_shaders/ui.hpp"}},
+        {"panel", {"modules/panel/"}, {"render", "ui"}, {"glm/", "tl/", "fmt/", "imgui.h"}},
         {"window",
          {"modules/window/"},
          {"gl", "vk", "gpu", "input"},

@@ -87,5 +87,16 @@ TEST_F(LightChoiceTest, compares_lamps_and_suns_in_lux_and_by_luminance) {
     EXPECT_EQ(choose(2).unshadowed, Entities{blue});
 }
 
+TEST_F(LightChoiceTest, a_light_that_is_off_is_in_neither_list) {
+    const auto far = lamp({9, 4, 0}, 100);
+    const auto near = lamp({1, 3, 0}, 100);
+    const auto strong = lamp({9, 4, 3}, 10000);
+    scene::update_world_transforms(scene_.registry);
+    const Entities off{strong};
+    const LightChoice choice = choose_shadowed_lights(scene_, bounds_, view_, 1, off);
+    EXPECT_EQ(choice.shadowed, Entities{near});
+    EXPECT_EQ(choice.unshadowed, Entities{far});
+}
+
 }  // namespace
 }  // namespace gnomon::render

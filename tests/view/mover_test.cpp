@@ -71,7 +71,7 @@ TEST_F(Moving, below_a_parent_without_inverse_nothing_moves) {
 }
 
 TEST(Dragging, stays_in_its_plane) {
-    const Ray ray{{0.0, 5.0, 5.0}, glm::normalize(glm::dvec3(0.3, -1.0, -1.0))};
+    const panel::Ray ray{{0.0, 5.0, 5.0}, glm::normalize(glm::dvec3(0.3, -1.0, -1.0))};
     const auto way = dragged_in_plane(ray, {1.0, 1.0, 1.0}, {0.0, 1.0, 0.0});
     ASSERT_TRUE(way);
     EXPECT_NEAR(way->y, 0.0, 1e-12);

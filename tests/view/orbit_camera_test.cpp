@@ -5,7 +5,7 @@
 
 #include <gnomon/render/camera.hpp>
 
-#include "view/picker.hpp"
+#include <gnomon/panel/picker.hpp>
 
 namespace gnomon::cli {
 namespace {
@@ -48,9 +48,9 @@ TEST(OrbitCamera, stops_before_the_poles_and_stays_upright) {
 
 TEST(OrbitCamera, what_is_panned_follows_the_mouse) {
     OrbitCamera camera = camera_at({9.0, 6.0, 11.0});
-    const auto before = pixel_of(camera.view(plain), box.center(), plain.size_px);
+    const auto before = panel::pixel_of(camera.view(plain), box.center(), plain.size_px);
     camera.pan({37.0, -21.0}, plain);
-    const auto after = pixel_of(camera.view(plain), box.center(), plain.size_px);
+    const auto after = panel::pixel_of(camera.view(plain), box.center(), plain.size_px);
     ASSERT_TRUE(before && after);
     EXPECT_NEAR(after->x - before->x, 37.0, 1e-6);
     EXPECT_NEAR(after->y - before->y, -21.0, 1e-6);
@@ -65,7 +65,7 @@ TEST(OrbitCamera, zooms_by_a_tenth_a_notch_and_never_arrives) {
     EXPECT_NEAR(glm::distance(camera.eye(), box.center()), before, 1e-9);
     camera.zoom(1000.0);
     EXPECT_GT(glm::distance(camera.eye(), box.center()), 0.0);
-    EXPECT_TRUE(pixel_of(camera.view(plain), box.center(), plain.size_px));
+    EXPECT_TRUE(panel::pixel_of(camera.view(plain), box.center(), plain.size_px));
 }
 
 TEST(OrbitCamera, an_orthographic_picture_stays_one_however_far_one_zooms) {
@@ -75,8 +75,10 @@ TEST(OrbitCamera, an_orthographic_picture_stays_one_however_far_one_zooms) {
     OrbitCamera camera(lens, render::camera_pose({9.0, 6.0, 11.0}, box.center(), {0.0, 1.0, 0.0}),
                        0.001, box);
     const auto metres_of_60_px = [&] {
-        const Ray left = ray_through(camera.view(plain), {370.0, 300.0}, plain.size_px);
-        const Ray right = ray_through(camera.view(plain), {430.0, 300.0}, plain.size_px);
+        const panel::Ray left =
+            panel::ray_through(camera.view(plain), {370.0, 300.0}, plain.size_px);
+        const panel::Ray right =
+            panel::ray_through(camera.view(plain), {430.0, 300.0}, plain.size_px);
         return glm::distance(left.origin_world, right.origin_world);
     };
     const double before = metres_of_60_px();
@@ -103,7 +105,7 @@ TEST(OrbitCamera, frames_the_scene_in_what_the_panel_leaves_free) {
             glm::dvec2 min(1e9);
             glm::dvec2 max(-1e9);
             for (unsigned i = 0; i < 8; ++i) {
-                const auto pixel = pixel_of(
+                const auto pixel = panel::pixel_of(
                     camera.view(canvas),
                     {(i & 1U) != 0 ? box.min.x : box.max.x, (i & 2U) != 0 ? box.min.y : box.max.y,
                      (i & 4U) != 0 ? box.min.z : box.max.z},
@@ -119,7 +121,7 @@ TEST(OrbitCamera, frames_the_scene_in_what_the_panel_leaves_free) {
             // and fills it
             EXPECT_GT(std::max((max.x - min.x) / (1280.0 - covered), (max.y - min.y) / 720.0),
                       0.65);
-            const auto middle = pixel_of(camera.view(canvas), box.center(), canvas.size_px);
+            const auto middle = panel::pixel_of(camera.view(canvas), box.center(), canvas.size_px);
             EXPECT_NEAR(middle->x, (1280.0 + covered) / 2.0 - 0.5, 1e-6);
             EXPECT_NEAR(middle->y, 359.5, 1e-6);
         }

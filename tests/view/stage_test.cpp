@@ -55,20 +55,20 @@ TEST_P(OnStage, lights_and_their_shadows_go_out_and_on_again) {
     open("builtin:pillars");
     ASSERT_EQ(stage->lights().size(), 2U);
     const auto all = draw();
-    stage->switch_light(0, false);
+    stage->lights()[0].on = false;
     const auto one = draw();
     EXPECT_NE(one, all);
     EXPECT_EQ(stage->draw_list().lights.size(), 1U);
-    stage->switch_light(0, true);
+    stage->lights()[0].on = true;
     EXPECT_EQ(draw(), all);
-    stage->switch_shadow(0, false);
+    stage->lights()[0].casts = false;
     const auto shines_through = draw();
     EXPECT_NE(shines_through, all);
     EXPECT_NE(shines_through, one);
-    stage->switch_shadow(0, true);
+    stage->lights()[0].casts = true;
     EXPECT_EQ(draw(), all);
-    stage->switch_light(0, false);
-    stage->switch_light(1, false);
+    stage->lights()[0].on = false;
+    stage->lights()[1].on = false;
     static_cast<void>(draw());
     EXPECT_TRUE(stage->draw_list().lights.empty());
 }
@@ -100,8 +100,9 @@ TEST_P(OnStage, dragging_a_light_finds_its_silhouettes_alone) {
     static_cast<void>(draw());
     const auto before = draw();
     EXPECT_EQ(stage->figures().shadows.pairs_redetected, 0U);
-    const auto lantern =
-        std::ranges::find_if(stage->lights(), [](const StageLight& l) { return !l.directional(); });
+    const auto lantern = std::ranges::find_if(stage->lights(), [&](const panel::LightLine& l) {
+        return !panel::is_directional(stage->shot().scene.registry, l.entity);
+    });
     ASSERT_NE(lantern, stage->lights().end());
     const auto start = stage->shot().scene.registry.get<scene::LocalTransform>(lantern->entity);
     must(stage->move(lantern->entity, start,
@@ -118,9 +119,9 @@ TEST_P(OnStage, dragging_a_caster_moves_its_shadow) {
     static_cast<void>(draw());
     const auto before = draw();
     // It has holes.
-    std::optional<Hit> knot;
+    std::optional<panel::Hit> knot;
     for (double x = 100.0; x < 220.0 && !knot; x += 5.0) {
-        const auto hit = stage->pick(ray_through(view(), {x, 100.0}, size));
+        const auto hit = stage->pick(panel::ray_through(view(), {x, 100.0}, size));
         if (hit && stage->name_of(hit->entity) == "knot") knot = hit;
     }
     ASSERT_TRUE(knot);
@@ -135,7 +136,7 @@ TEST_P(OnStage, dragging_a_caster_moves_its_shadow) {
 // The probe says what the picture shows: where it says "in shadow", the stencil has a count.
 TEST_P(OnStage, the_probe_and_the_stencil_agree) {
     open("builtin:pillars");
-    for (std::size_t i = 1; i < stage->lights().size(); ++i) stage->switch_light(i, false);
+    for (std::size_t i = 1; i < stage->lights().size(); ++i) stage->lights()[i].on = false;
     static_cast<void>(draw());
     render::Renderer renderer =
         must(render::Renderer::create(device(), {.width = size.x, .height = size.y}));
@@ -147,7 +148,7 @@ TEST_P(OnStage, the_probe_and_the_stencil_agree) {
     int wrong = 0;
     for (unsigned y = 4; y < size.y; y += 6) {
         for (unsigned x = 4; x < size.x; x += 6) {
-            const auto probe = must(stage->probe(ray_through(view(), {x, y}, size)));
+            const auto probe = must(stage->probe(panel::ray_through(view(), {x, y}, size)));
             if (!probe) continue;
             ASSERT_EQ(probe->answers.size(), 1U);
             if (probe->answers[0].faces_away) continue;
@@ -230,14 +231,14 @@ TEST_P(OnStage, who_picked_the_ground_learns_that_it_is_gone) {
 TEST_P(OnStage, the_probe_says_lit_of_lights_without_shadow) {
     open("builtin:pillars");
     static_cast<void>(draw());
-    std::optional<Ray> dark;
+    std::optional<panel::Ray> dark;
     std::size_t light = 0;
     for (unsigned y = 4; y < size.y && !dark; y += 6) {
         for (unsigned x = 4; x < size.x && !dark; x += 6) {
-            const Ray ray = ray_through(view(), {x, y}, size);
+            const panel::Ray ray = panel::ray_through(view(), {x, y}, size);
             const auto probe = must(stage->probe(ray));
             if (!probe) continue;
-            for (const Probe::Answer& answer : probe->answers) {
+            for (const panel::Probe::Answer& answer : probe->answers) {
                 if (answer.exposure != shadows::Exposure::Shadowed) continue;
                 dark = ray;
                 light = answer.light;
@@ -248,13 +249,13 @@ TEST_P(OnStage, the_probe_says_lit_of_lights_without_shadow) {
     const auto answer = [&] {
         static_cast<void>(draw());
         const auto probe = must(stage->probe(*dark));
-        return *std::ranges::find(probe->answers, light, &Probe::Answer::light);
+        return *std::ranges::find(probe->answers, light, &panel::Probe::Answer::light);
     };
     EXPECT_GT(answer().surfaces, 0U);
-    stage->switch_shadow(light, false);
+    stage->lights()[light].casts = false;
     EXPECT_EQ(answer().exposure, shadows::Exposure::Lit);
     EXPECT_EQ(answer().surfaces, 0U);
-    stage->switch_shadow(light, true);
+    stage->lights()[light].casts = true;
     stage->options().max_shadowed_lights = 0;
     EXPECT_EQ(answer().exposure, shadows::Exposure::Lit);
     stage->options().max_shadowed_lights.reset();

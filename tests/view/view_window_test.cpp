@@ -7,11 +7,15 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include <sys/stat.h>
 
 #include <gnomon/window/window.hpp>
 
 #include "tests/cli/program.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/support/share.hpp"
 #include "tests/view/png.hpp"
 
 namespace gnomon::cli::test {
@@ -58,6 +62,9 @@ protected:
     }
 };
 
+/// What has nothing to do with how a backend draws; of each in `make soak`.
+class ViewOnce : public ViewOn {};
+
 TEST_P(ViewOn, shows_what_render_draws) {
     const Arguments camera{"--eye", "4,3,7", "--target", "0,1,0"};
     const std::string name(window::name_of(GetParam()));
@@ -74,7 +81,7 @@ TEST_P(ViewOn, shows_what_render_draws) {
     EXPECT_LT(difference(shown, image("b.png"), 1).pixels, 800U);
 }
 
-TEST_P(ViewOn, drags_a_caster_and_the_camera) {
+TEST_P(ViewOnce, drags_a_caster_and_the_camera) {
     const std::string before = "2 screenshot before.png\n3 screenshot again.png\n";
     run_well(on(scripted("builtin:pillars",
                          before + "4 move 160 110\n"
@@ -101,7 +108,7 @@ TEST_P(ViewOn, drags_a_caster_and_the_camera) {
     EXPECT_GT(difference(image("camera.png"), image("zoom.png"), 20).pixels, 3000U);
 }
 
-TEST_P(ViewOn, a_script_gives_the_same_pictures_again) {
+TEST_P(ViewOnce, a_script_gives_the_same_pictures_again) {
     const std::string script =
         "1 tap 2\n"
         "4 move 200 100\n"
@@ -139,7 +146,7 @@ TEST_P(ViewOn, exchanges_the_backend_while_it_runs) {
     EXPECT_GT(difference(image("one.png"), image("two.png"), 20).pixels, 100U) << "B: the note";
 }
 
-TEST_P(ViewOn, takes_dropped_files_and_refuses_bad_ones) {
+TEST_P(ViewOnce, takes_dropped_files_and_refuses_bad_ones) {
     write("wall.scene.json", wall_and_block());
     write("bad.glb", "this is no model");
     run_well(on(scripted("builtin:pillars",
@@ -173,7 +180,7 @@ TEST_P(ViewOn, follows_the_windows_size) {
     EXPECT_GT(difference(image("narrow.png"), image("panel.png"), 20).pixels, 20000U);
 }
 
-TEST_P(ViewOn, keys_do_no_harm_and_P_leaves_a_picture) {
+TEST_P(ViewOnce, keys_do_no_harm_and_P_leaves_a_picture) {
     std::string script;
     int frame = 0;
     for (const char* key :
@@ -186,7 +193,7 @@ TEST_P(ViewOn, keys_do_no_harm_and_P_leaves_a_picture) {
     EXPECT_THAT(files(), UnorderedElementsAre("run.input", "end.png", "gnomon-walk-1.png"));
 }
 
-TEST_P(ViewOn, the_ground_may_go_while_it_is_held) {
+TEST_P(ViewOnce, the_ground_may_go_while_it_is_held) {
     write("block.scene.json",
           R"({"primitives": [{"shape": "box", "size": [1, 1, 1], "translation": [0, 0.5, 0]}]})");
     for (const std::string mode : {"T", "R"}) {
@@ -211,7 +218,7 @@ TEST_P(ViewOn, the_ground_may_go_while_it_is_held) {
     }
 }
 
-TEST_P(ViewOn, a_picture_of_nothing_is_refused) {
+TEST_P(ViewOnce, a_picture_of_nothing_is_refused) {
     write("run.input", "0 screenshot a.png\n");
     expect_refused(on(view("builtin:pillars", {"--quiet", "--script", "run.input"})),
                    {"a.png", "nothing has been drawn yet"});
@@ -219,6 +226,12 @@ TEST_P(ViewOn, a_picture_of_nothing_is_refused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, ViewOn, testing::ValuesIn(window::backends()),
+                         [](const auto& info) { return std::string(window::name_of(info.param)); });
+
+std::vector<window::Backend> one_backend() {
+    return gnomon::test::thorough() ? window::backends() : std::vector{window::backends().front()};
+}
+INSTANTIATE_TEST_SUITE_P(Backends, ViewOnce, testing::ValuesIn(one_backend()),
                          [](const auto& info) { return std::string(window::name_of(info.param)); });
 
 // There is no display to open one on, and that is not what it says.
@@ -240,6 +253,10 @@ TEST_F(View, says_what_is_wrong_before_a_window_opens) {
     expect_refused({"view", "builtin:knot", "--frames", "0"}, {"--frames"});
     expect_refused({"view", "builtin:knot", "--silhouette", "guess"}, {"guess"});
     expect_refused({"view", "builtin:knot", "--script", "none.input"}, {"none.input"});
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    expect_refused({"view", "builtin:knot", "--script", "pipe"},
+                   {"pipe: the script must be a plain file"});
+    std::filesystem::remove(path("pipe"));
     expect_refused({"view", "builtin:knot", "--screenshot", "no/such/folder/a.png"}, {"folder"});
     write("bad.input", "0 move 1 2\n1 leap\n");
     expect_refused({"view", "builtin:knot", "--script", "bad.input"},

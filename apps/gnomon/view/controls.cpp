@@ -27,7 +27,7 @@ Status Viewer::handle_keys(const input::Input& input) {
     const auto pressed = [&](Key key) { return input.was_pressed(key); };
     if (pressed(Key::Tab)) state_.panel = !state_.panel;
     if (pressed(Key::F1)) state_.help = !state_.help;
-    if (pressed(Key::Q)) state_.probes = !state_.probes;
+    if (pressed(Key::Q)) state_.marks.probe = !state_.marks.probe;
     if (pressed(Key::G)) {
         stage_.show_ground(!stage_.has_ground());
         forget_what_is_gone();
@@ -42,11 +42,10 @@ Status Viewer::handle_keys(const input::Input& input) {
     if (pressed(Key::C) || pressed(Key::Escape)) state_.selection = {};
     if (pressed(Key::L)) select_next_light();
 
-    render::Overlays& show = stage_.options().overlays;
-    bool* const views[] = {&show.volumes,   &show.silhouettes, &show.caps,
-                           &show.wireframe, &show.count,       &show.fill};
-    for (int i = 0; i < 6; ++i) {
-        if (pressed(static_cast<Key>(static_cast<int>(Key::Digit1) + i))) *views[i] = !*views[i];
+    const auto views = panel::overlay_switches(stage_.options().overlays);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const auto key = static_cast<Key>(static_cast<std::size_t>(Key::Digit1) + i);
+        if (pressed(key)) *views[i] = !*views[i];
     }
     if (stage_.shot().scene.animations.empty()) return {};
     if (pressed(Key::Space)) state_.playing = !state_.playing;
@@ -111,7 +110,7 @@ void Viewer::begin_drag(const input::Input& input, MouseButton button) {
         drag_ = drag;
         return;
     }
-    const Ray ray = ray_through(view_, input.cursor_px(), size_px_);
+    const panel::Ray ray = panel::ray_through(view_, input.cursor_px(), size_px_);
     if (const auto light = light_under(stage_, view_, size_px_, input.cursor_px())) {
         // A handle is small and there to be dragged: no click before.
         state_.selection = {Selection::Kind::Light, stage_.lights()[*light].entity};
@@ -131,16 +130,16 @@ void Viewer::begin_drag(const input::Input& input, MouseButton button) {
     if (drag.kind == Drag::Kind::Object) begin_object_drag(ray);
 }
 
-void Viewer::begin_object_drag(const Ray& ray) {
+void Viewer::begin_object_drag(const panel::Ray& ray) {
     const scene::Bounds& all = stage_.shot().bounds;
     drag_->node = stage_.handle_node(state_.selection.entity);
     drag_->start_local = stage_.shot().scene.registry.get<scene::LocalTransform>(drag_->node);
     drag_->pivot = all.empty() ? glm::dvec3(0.0) : all.center();
     if (state_.selection.kind == Selection::Kind::Light) {
-        const StageLight& light = stage_.lights()[*stage_.light_of(state_.selection.entity)];
+        const panel::LightLine& light = stage_.lights()[*stage_.light_of(state_.selection.entity)];
         drag_->grabbed = stage_.handle_of(light);
         // A spot light is turned where it hangs; others go round the scene.
-        if (std::holds_alternative<scene::SpotLight>(light.component)) {
+        if (stage_.shot().scene.registry.has<scene::SpotLight>(light.entity)) {
             drag_->pivot = drag_->grabbed;
         }
         return;
@@ -158,13 +157,14 @@ Status Viewer::drag_object(const input::Input& input) {
                               pixels.x * radians_per_pixel, pixels.y * radians_per_pixel);
     } else {
         const glm::dvec3 normal = input.shift() ? glm::dvec3(0.0, 1.0, 0.0) : -camera_.forward();
-        const Ray ray = ray_through(view_, input.cursor_px(), size_px_);
+        const panel::Ray ray = panel::ray_through(view_, input.cursor_px(), size_px_);
         const auto way = dragged_in_plane(ray, drag_->grabbed, normal);
         if (!way) return {};
         const auto light = state_.selection.kind == Selection::Kind::Light
                                ? stage_.light_of(state_.selection.entity)
                                : std::nullopt;
-        if (light && stage_.lights()[*light].directional()) {
+        if (light &&
+            panel::is_directional(stage_.shot().scene.registry, stage_.lights()[*light].entity)) {
             motion = turned_towards(drag_->pivot, drag_->grabbed - drag_->pivot,
                                     drag_->grabbed + *way - drag_->pivot);
         } else {

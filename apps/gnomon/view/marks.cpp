@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <gnomon/panel/figures.hpp>
 #include <gnomon/ui/context.hpp>
 
 #include "view/panel.hpp"
@@ -16,9 +17,6 @@ namespace gnomon::cli {
 namespace {
 
 constexpr double reach_px = 16.0;
-/// Lights that the probe names; the others it counts.
-constexpr std::size_t most_answers = 8;
-
 ImU32 packed(const glm::vec4& color, float alpha = 1.0F) {
     return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, color.a * alpha});
 }
@@ -28,8 +26,7 @@ ImVec2 at(const glm::dvec2& pixel) {
     return {static_cast<float>(pixel.x + 0.5), static_cast<float>(pixel.y + 0.5)};
 }
 
-glm::vec4 color_of_light(const StageLight& light) {
-    const glm::vec3 color = std::visit([](const auto& c) { return c.color; }, light.component);
+glm::vec4 hue_of(const glm::vec3& color) {
     const float largest = std::max({color.r, color.g, color.b, 1e-6F});
     return {glm::sqrt(color / largest), 1.0F};
 }
@@ -47,20 +44,21 @@ void show_handles(ImDrawList& list, const ViewState& state, const Stage& stage,
                   const shadows::View& view, const glm::uvec2& size_px) {
     const auto hovered = light_under(stage, view, size_px, state.cursor_px);
     for (std::size_t i = 0; i < stage.lights().size(); ++i) {
-        const StageLight& light = stage.lights()[i];
-        const auto pixel = pixel_of(view, stage.handle_of(light), size_px);
+        const panel::LightLine& light = stage.lights()[i];
+        const scene::Registry& registry = stage.shot().scene.registry;
+        const bool directional = panel::is_directional(registry, light.entity);
+        const auto pixel = panel::pixel_of(view, stage.handle_of(light), size_px);
         if (!pixel) continue;
         const bool selected = state.selection.kind == Selection::Kind::Light &&
                               state.selection.entity == light.entity;
         const ImVec2 c = at(*pixel);
-        const glm::vec4 color =
-            light.on ? color_of_light(light) : glm::vec4(0.5F, 0.5F, 0.5F, 1.0F);
+        const glm::vec4 color = light.on ? hue_of(panel::color_of_light(registry, light.entity))
+                                         : glm::vec4(0.5F, 0.5F, 0.5F, 1.0F);
         // Of many lights, dots.
-        const float radius =
-            light.directional() ? 7.0F : (stage.lights().size() > 16 ? 3.5F : 5.5F);
+        const float radius = directional ? 7.0F : (stage.lights().size() > 16 ? 3.5F : 5.5F);
         list.AddCircleFilled(c, radius + 2.0F, IM_COL32(15, 17, 21, 200));
         list.AddCircleFilled(c, radius, packed(color));
-        if (light.directional()) draw_sun(list, c, radius, packed(color), 2.0F);
+        if (directional) draw_sun(list, c, radius, packed(color), 2.0F);
         if (selected || hovered == i) {
             list.AddCircle(c, 14.0F, packed(ui::palette().accent, selected ? 1.0F : 0.6F), 0, 2.0F);
             const ImVec2 size = ImGui::CalcTextSize(light.name.c_str());
@@ -80,11 +78,11 @@ void show_selected(ImDrawList& list, const ViewState& state, const Stage& stage,
     const scene::Bounds bounds = stage.bounds_of(state.selection.entity);
     if (bounds.empty()) return;
     const auto corner = [&](unsigned i) {
-        return pixel_of(view,
-                        {(i & 1U) != 0 ? bounds.max.x : bounds.min.x,
-                         (i & 2U) != 0 ? bounds.max.y : bounds.min.y,
-                         (i & 4U) != 0 ? bounds.max.z : bounds.min.z},
-                        size_px);
+        return panel::pixel_of(view,
+                               {(i & 1U) != 0 ? bounds.max.x : bounds.min.x,
+                                (i & 2U) != 0 ? bounds.max.y : bounds.min.y,
+                                (i & 4U) != 0 ? bounds.max.z : bounds.min.z},
+                               size_px);
     };
     for (unsigned i = 0; i < 8; ++i) {
         for (const unsigned bit : {1U, 2U, 4U}) {
@@ -94,90 +92,6 @@ void show_selected(ImDrawList& list, const ViewState& state, const Stage& stage,
             if (from && to) list.AddLine(at(*from), at(*to), packed(ui::palette().accent), 1.5F);
         }
     }
-}
-
-void show_bounds(ImDrawList& list, const ViewState& state, const Stage& stage,
-                 const glm::uvec2& size_px) {
-    if (!state.scissors && !state.reasons) return;
-    for (const shadows::VolumeDraw& draw : stage.draw_list().draws) {
-        if (draw.bounds.empty()) continue;
-        const shadows::PixelRect rect = shadows::pixels_of(draw.bounds, size_px.x, size_px.y);
-        if (rect.width == 0 || rect.height == 0) continue;
-        const ImVec2 min{static_cast<float>(rect.x), static_cast<float>(rect.y)};
-        const ImVec2 max{min.x + static_cast<float>(rect.width),
-                         min.y + static_cast<float>(rect.height)};
-        const glm::vec4 color =
-            state.reasons ? color_of(draw.reason) : glm::vec4(0.4F, 0.8F, 1.0F, 1.0F);
-        // What stayed as it was is outlined alone, or it would cover what did not.
-        if (state.reasons && draw.reason != shadows::Reason::Unchanged) {
-            list.AddRectFilled(min, max, packed(color, 0.12F));
-        }
-        list.AddRect(min, max, packed(color, 0.75F));
-    }
-}
-
-void show_probe(ImDrawList& list, const ViewState& state, const Stage& stage,
-                const shadows::View& view, const glm::uvec2& size_px) {
-    if (!state.probe) return;
-    const Probe& probe = *state.probe;
-    const auto pixel = pixel_of(view, probe.hit.point_world, size_px);
-    if (!pixel) return;
-    const ui::Palette colors = ui::palette();
-    for (const Probe::Answer& answer : probe.answers) {
-        if (answer.exposure == shadows::Exposure::OutOfRange) continue;
-        const auto light = pixel_of(view, stage.handle_of(stage.lights()[answer.light]), size_px);
-        if (!light) continue;
-        const bool lit = answer.exposure == shadows::Exposure::Lit && !answer.faces_away;
-        list.AddLine(at(*pixel), at(*light), packed(lit ? colors.good : colors.bad, 0.55F), 1.5F);
-    }
-    list.AddCircleFilled(at(*pixel), 3.5F, IM_COL32(255, 255, 255, 255));
-
-    const ImVec2 mouse = at(state.cursor_px);
-    ImGui::SetNextWindowPos({mouse.x + 18.0F, mouse.y + 14.0F});
-    ImGui::SetNextWindowBgAlpha(0.88F);
-    ImGui::Begin("##probe", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
-                     ImGuiWindowFlags_NoSavedSettings);
-    const std::string name = stage.name_of(probe.hit.entity);
-    const glm::dvec3& p = probe.hit.point_world;
-    ImGui::TextUnformatted(name.empty() ? "(no name)" : name.c_str());
-    // As many places as a ten thousandth of the scene is worth.
-    const double size_m = std::max(stage.shot().bounds.diagonal(), 1e-12);
-    const int places = std::clamp(static_cast<int>(std::ceil(4.0 - std::log10(size_m))), 0, 9);
-    const auto rounded = [&](double value) {
-        const double scale = std::pow(10.0, places);
-        return std::round(value * scale) / scale + 0.0;  // no -0
-    };
-    ImGui::TextDisabled("%.*f, %.*f, %.*f m", places, rounded(p.x), places, rounded(p.y), places,
-                        rounded(p.z));
-    std::size_t out_of_range = 0;
-    std::size_t shown = 0;
-    for (const Probe::Answer& answer : probe.answers) {
-        const char* what = "lit";
-        glm::vec4 color = colors.good;
-        if (answer.exposure == shadows::Exposure::OutOfRange) {
-            ++out_of_range;
-            continue;
-        }
-        if (++shown > most_answers) continue;
-        if (answer.exposure == shadows::Exposure::Shadowed) {
-            what = "in shadow";
-            color = colors.bad;
-        } else if (answer.faces_away) {
-            what = "faces away";
-            color = colors.dim;
-        }
-        ImGui::TextColored({color.r, color.g, color.b, 1.0F}, "%s: %s",
-                           stage.lights()[answer.light].name.c_str(), what);
-        if (answer.surfaces > 0) {
-            ImGui::SameLine();
-            ImGui::TextDisabled("%u between", answer.surfaces);
-        }
-    }
-    if (shown > most_answers) ImGui::TextDisabled("and %zu more", shown - most_answers);
-    if (out_of_range > 0) ImGui::TextDisabled("%zu out of range", out_of_range);
-    ImGui::End();
 }
 
 // One line below: what the mouse does now, and what there was to say.
@@ -222,7 +136,7 @@ std::optional<std::size_t> light_under(const Stage& stage, const shadows::View& 
     std::optional<std::size_t> nearest;
     double best = reach_px;
     for (std::size_t i = 0; i < stage.lights().size(); ++i) {
-        const auto pixel = pixel_of(view, stage.handle_of(stage.lights()[i]), size_px);
+        const auto pixel = panel::pixel_of(view, stage.handle_of(stage.lights()[i]), size_px);
         if (!pixel || !(glm::distance(*pixel, cursor_px) < best)) continue;
         best = glm::distance(*pixel, cursor_px);
         nearest = i;
@@ -233,9 +147,16 @@ std::optional<std::size_t> light_under(const Stage& stage, const shadows::View& 
 void show_marks(const ViewState& state, const Stage& stage, const shadows::View& view,
                 const glm::uvec2& size_px) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    show_bounds(list, state, stage, size_px);
+    panel::show_bounds(state.marks, stage.draw_list(), size_px);
     show_selected(list, state, stage, view, size_px);
-    show_probe(list, state, stage, view, size_px);
+    if (state.probe) {
+        panel::show_probe(*state.probe, stage.shot().scene.registry,
+                          {.view = view,
+                           .size_px = size_px,
+                           .cursor_px = state.cursor_px,
+                           .bounds = stage.shot().bounds,
+                           .lights = stage.lights()});
+    }
     show_handles(list, state, stage, view, size_px);
     show_hints(list, state, stage, size_px);
 }

@@ -54,7 +54,7 @@ void move_node(scene::Registry& registry, scene::Entity entity,
     registry.get<scene::LocalTransform>(entity) = moved;
 }
 
-std::optional<glm::dvec3> dragged_in_plane(const Ray& ray, const glm::dvec3& grabbed,
+std::optional<glm::dvec3> dragged_in_plane(const panel::Ray& ray, const glm::dvec3& grabbed,
                                            const glm::dvec3& plane_normal) {
     const double along = glm::dot(ray.direction_world, plane_normal);
     // Nearer to the plane than this a pixel would be a mile.

@@ -8,9 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include <gnomon/panel/picker.hpp>
 #include <gnomon/scene/scene.hpp>
-
-#include "view/picker.hpp"
 
 namespace gnomon::cli {
 
@@ -25,7 +24,8 @@ void move_node(scene::Registry& registry, scene::Entity entity,
 
 /// From the point where the drag began to the point under the mouse, in the plane through it with
 /// this normal. Nothing where the ray does not meet the plane in front of the eye.
-[[nodiscard]] std::optional<glm::dvec3> dragged_in_plane(const Ray& ray, const glm::dvec3& grabbed,
+[[nodiscard]] std::optional<glm::dvec3> dragged_in_plane(const panel::Ray& ray,
+                                                         const glm::dvec3& grabbed,
                                                          const glm::dvec3& plane_normal);
 
 /// By yaw about the world's up and pitch about the picture's right, about `pivot`.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,33 +32,14 @@ Stage::Stage(const RenderOptions& options, Shot shot) : options_(options), shot_
         [&](scene::Entity, const scene::Receiver&, const scene::MeshInstance& instance) {
             triangles_ += instance.mesh->triangle_count();
         });
-    find_lights();
+    // What --light made is called so.
+    lights_ = panel::lights_of(shot_.scene, "--light");
 }
 
 Result<Stage> Stage::load(const RenderOptions& options) {
     auto shot = make_shot(options);
     if (!shot) return forward_error(shot);
     return Stage(options, std::move(*shot));
-}
-
-void Stage::find_lights() {
-    scene::Registry& registry = shot_.scene.registry;
-    const auto collect = [&](scene::Entity entity, const auto& component) {
-        lights_.push_back({.entity = entity, .name = name_of(entity), .component = component});
-    };
-    registry.each<scene::DirectionalLight>(collect);
-    registry.each<scene::PointLight>(collect);
-    registry.each<scene::SpotLight>(collect);
-    std::size_t suns = 0;
-    std::size_t lamps = 0;
-    for (StageLight& light : lights_) {
-        // What --light made, or a file without names.
-        if (!light.name.empty() && light.name != "--light") continue;
-        std::size_t& number = light.directional() ? suns : lamps;
-        ++number;
-        light.name = light.directional() ? "sun" : "lamp";
-        if (number > 1) light.name += fmt::format(" {}", number);
-    }
 }
 
 render::RendererDesc Stage::renderer_desc(const glm::uvec2& size_px) const {
@@ -117,23 +97,23 @@ Status Stage::draw(const shadows::View& view, const glm::uvec2& size_px) {
     const auto start = Clock::now();
     const gpu::DeviceCounters before = device_->counters();
 
-    unshadowed_.clear();
-    for (const StageLight& light : lights_) {
-        if (light.on && !light.casts) unshadowed_.push_back(light.entity);
-    }
+    const panel::SwitchedLights lights = panel::switched(lights_);
+    unshadowed_ = lights.unshadowed;
     if (options_.max_shadowed_lights) {
-        const auto choice = render::choose_shadowed_lights(shot_.scene, shot_.bounds, view,
-                                                           *options_.max_shadowed_lights);
+        const auto choice = render::choose_shadowed_lights(
+            shot_.scene, shot_.bounds, view, *options_.max_shadowed_lights, lights.off);
         for (const scene::Entity light : choice.unshadowed) {
             if (std::ranges::find(unshadowed_, light) == unshadowed_.end()) {
                 unshadowed_.push_back(light);
             }
         }
     }
+    std::vector<scene::Entity> without_shadow = unshadowed_;
+    without_shadow.insert(without_shadow.end(), lights.off.begin(), lights.off.end());
     list_ = nullptr;
     auto frame = system_->begin_frame();
     if (const Status submitted = adapter_.submit(shot_.scene, frame, options_.cull_back,
-                                                 options_.near_caps, unshadowed_);
+                                                 options_.near_caps, without_shadow);
         !submitted) {
         return submitted;
     }
@@ -159,35 +139,10 @@ Status Stage::draw(const shadows::View& view, const glm::uvec2& size_px) {
 
 gpu::TextureId Stage::picture() const { return renderer_->picture(); }
 
-void Stage::switch_light(std::size_t place, bool on) {
-    StageLight& light = lights_[place];
-    if (light.on == on) return;
-    light.on = on;
-    std::visit(
-        [&](const auto& component) {
-            using Component = std::decay_t<decltype(component)>;
-            if (on) {
-                shot_.scene.registry.emplace<Component>(light.entity, component);
-            } else {
-                shot_.scene.registry.remove<Component>(light.entity);
-            }
-        },
-        light.component);
-}
-
 std::optional<std::size_t> Stage::light_of(scene::Entity entity) const {
-    const auto found = std::ranges::find(lights_, entity, &StageLight::entity);
+    const auto found = std::ranges::find(lights_, entity, &panel::LightLine::entity);
     if (found == lights_.end()) return std::nullopt;
     return static_cast<std::size_t>(found - lights_.begin());
-}
-
-glm::dvec3 Stage::handle_of(const StageLight& light) const {
-    const glm::dmat4& world =
-        shot_.scene.registry.get<scene::WorldTransform>(light.entity).world_from_local;
-    if (!light.directional()) return glm::dvec3(world[3]);
-    const glm::dvec3 center = shot_.bounds.empty() ? glm::dvec3(0.0) : shot_.bounds.center();
-    const double away_m = shot_.bounds.empty() ? 1.0 : 0.55 * shot_.bounds.diagonal();
-    return center + glm::normalize(glm::dvec3(world[2])) * away_m;
 }
 
 void Stage::show_ground(bool shown) {
@@ -236,37 +191,14 @@ Status Stage::move(scene::Entity entity, const scene::LocalTransform& start_loca
     return scene::deform(shot_.scene);
 }
 
-Result<std::optional<Probe>> Stage::probe(const Ray& ray) {
+Result<std::optional<panel::Probe>> Stage::probe(const panel::Ray& ray) {
     const auto hit = pick(ray);
-    if (!hit) return std::optional<Probe>();
+    if (!hit) return std::optional<panel::Probe>();
     const auto casters = adapter_.casters(shot_.scene, options_.cull_back, options_.near_caps);
     if (!casters) return forward_error(casters);
     queries_.update(*casters);
-    Probe probe{.hit = *hit, .answers = {}};
-    // Above what rounding does to a point of the picture's.
-    const double lift_m = std::max(1e-6 * shot_.bounds.diagonal(), 1e-9);
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
-        if (!lights_[i].on) continue;
-        const auto light = scene::shadow_light(shot_.scene.registry, lights_[i].entity);
-        if (!light) continue;
-        const glm::dvec3 to_light = light->position_world.w == 0.0
-                                        ? glm::dvec3(light->position_world)
-                                        : glm::dvec3(light->position_world) - hit->point_world;
-        // On the side that is seen, which may be another one than the light's.
-        const glm::dvec3 point = hit->point_world + hit->normal_world * lift_m;
-        Probe::Answer answer{.light = i,
-                             .exposure = queries_.at(*light, point),
-                             .faces_away = glm::dot(to_light, hit->normal_world) <= 0.0,
-                             .surfaces = queries_.surfaces_between(*light, point)};
-        if (std::ranges::find(unshadowed_, lights_[i].entity) != unshadowed_.end()) {
-            answer.surfaces = 0;
-            if (answer.exposure == shadows::Exposure::Shadowed) {
-                answer.exposure = shadows::Exposure::Lit;
-            }
-        }
-        probe.answers.push_back(answer);
-    }
-    return std::optional<Probe>(std::move(probe));
+    return std::optional(panel::probe_at(*hit, shot_.scene.registry, queries_, lights_, unshadowed_,
+                                         shot_.bounds.diagonal()));
 }
 
 scene::Entity Stage::handle_node(scene::Entity entity) const {

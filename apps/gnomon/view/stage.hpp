@@ -9,15 +9,16 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include <gnomon/panel/lights.hpp>
+#include <gnomon/panel/picker.hpp>
+#include <gnomon/panel/probe.hpp>
 #include <gnomon/render/renderer.hpp>
 #include <gnomon/scene/shadow_adapter.hpp>
 #include <gnomon/shadows/shadow_query.hpp>
 
 #include "render_setup.hpp"
-#include "view/picker.hpp"
 
 namespace gnomon::cli {
 
@@ -31,31 +32,6 @@ struct FrameFigures {
     std::uint64_t upload_bytes = 0;
     std::uint64_t draw_calls = 0;
     shadows::FrameStats shadows;
-};
-
-/// A light of the scene and whether it shines. The component of one that is off waits here.
-struct StageLight {
-    scene::Entity entity;
-    std::string name;
-    bool on = true;
-    bool casts = true;
-    std::variant<scene::PointLight, scene::SpotLight, scene::DirectionalLight> component;
-
-    [[nodiscard]] bool directional() const {
-        return std::holds_alternative<scene::DirectionalLight>(component);
-    }
-};
-
-/// What the shadow queries say of a point, light by light.
-struct Probe {
-    Hit hit;
-    struct Answer {
-        std::size_t light = 0;  ///< place in Stage::lights()
-        shadows::Exposure exposure = shadows::Exposure::Lit;
-        bool faces_away = false;     ///< the surface is turned away: no direct light in any case
-        std::uint32_t surfaces = 0;  ///< between the point and the light
-    };
-    std::vector<Answer> answers;
 };
 
 class Stage {
@@ -86,12 +62,13 @@ public:
     [[nodiscard]] const Shot& shot() const { return shot_; }
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
 
-    [[nodiscard]] const std::vector<StageLight>& lights() const { return lights_; }
-    void switch_light(std::size_t light, bool on);
-    void switch_shadow(std::size_t light, bool casts) { lights_[light].casts = casts; }
+    /// With switches, which count from the next draw() on.
+    [[nodiscard]] std::vector<panel::LightLine>& lights() { return lights_; }
+    [[nodiscard]] const std::vector<panel::LightLine>& lights() const { return lights_; }
     [[nodiscard]] std::optional<std::size_t> light_of(scene::Entity entity) const;
-    /// Where it is; of a directional light, a point towards which it stands, outside of the scene.
-    [[nodiscard]] glm::dvec3 handle_of(const StageLight& light) const;
+    [[nodiscard]] glm::dvec3 handle_of(const panel::LightLine& light) const {
+        return panel::handle_of(shot_.scene.registry, light.entity, shot_.bounds);
+    }
 
     /// A floor below everything, for models that have nothing to cast a shadow on. Receives, and
     /// casts none. Nothing happens where the scene is empty. Its entity goes with it: see
@@ -113,10 +90,12 @@ public:
     [[nodiscard]] Status move(scene::Entity entity, const scene::LocalTransform& start_local,
                               const glm::dmat4& motion_world);
 
-    [[nodiscard]] std::optional<Hit> pick(const Ray& ray) { return picker_.pick(shot_.scene, ray); }
+    [[nodiscard]] std::optional<panel::Hit> pick(const panel::Ray& ray) {
+        return picker_.pick(shot_.scene, ray);
+    }
     /// Of the lights as the last draw() had them: one that cast no shadow then lights whatever it
     /// reaches.
-    [[nodiscard]] Result<std::optional<Probe>> probe(const Ray& ray);
+    [[nodiscard]] Result<std::optional<panel::Probe>> probe(const panel::Ray& ray);
     /// What is moved where this is dragged: of a skinned mesh, whose own pose has no say, the node
     /// above all its joints.
     [[nodiscard]] scene::Entity handle_node(scene::Entity entity) const;
@@ -127,16 +106,15 @@ private:
     explicit Stage(const RenderOptions& options, Shot shot);
     [[nodiscard]] render::RendererDesc renderer_desc(const glm::uvec2& size_px) const;
     [[nodiscard]] Status make_system();
-    void find_lights();
 
     RenderOptions options_;
     Shot shot_;
-    std::vector<StageLight> lights_;
+    std::vector<panel::LightLine> lights_;
     std::uint64_t triangles_ = 0;
     std::optional<shadows::ShadowSystem> system_;
     scene::ShadowAdapter adapter_;
     shadows::ShadowQueries queries_;
-    Picker picker_;
+    panel::Picker picker_;
     gpu::Device* device_ = nullptr;
     std::optional<render::Renderer> renderer_;
     std::optional<scene::Entity> ground_;

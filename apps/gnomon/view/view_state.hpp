@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <gnomon/panel/choices.hpp>
+#include <gnomon/panel/probe.hpp>
 #include <gnomon/shadows/shadow_system.hpp>
 #include <gnomon/ui/chart.hpp>
 
@@ -44,9 +46,7 @@ struct ViewState {
     float unit = 1.0F;  ///< pixels of the panel's layout are so many of the screen's
     bool panel = true;
     bool help = true;
-    bool probes = true;
-    bool scissors = false;
-    bool reasons = false;
+    gnomon::panel::Marks marks;
 
     bool playing = false;
     double time_s = 0.0;
@@ -54,7 +54,7 @@ struct ViewState {
 
     MoveMode mode = MoveMode::Rotate;
     Selection selection;
-    std::optional<Probe> probe;
+    std::optional<gnomon::panel::Probe> probe;
     glm::dvec2 cursor_px{0.0};
 
     ui::ChartHistory shadow_times{3, chart_frames};  ///< detect, build, record
@@ -70,8 +70,5 @@ struct ViewState {
     }
     void add_times(const FrameFigures& figures);
 };
-
-/// A pair's reason as a colour: nothing to do is green, work is warm, no volume is grey.
-[[nodiscard]] glm::vec4 color_of(shadows::Reason reason);
 
 }  // namespace gnomon::cli

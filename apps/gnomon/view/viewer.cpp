@@ -5,8 +5,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -31,6 +29,7 @@ constexpr float font_px = 15.0F;
 constexpr double idle_wait_s = 0.5;
 /// A device that is lost as often without a frame between will be lost again.
 constexpr int most_losses = 3;
+constexpr std::size_t most_script_bytes = 8U << 20U;
 constexpr std::array<std::string_view, 3> commands{"size", "backend", "screenshot"};
 
 std::optional<window::Backend> backend_named(std::string_view name) {
@@ -74,13 +73,9 @@ Status check_command(std::string_view command) {
 
 Result<std::optional<input::Script>> read_script(const std::filesystem::path& path) {
     if (path.empty()) return std::optional<input::Script>();
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (!file || !(text << file.rdbuf())) {
-        return fail(ErrorCode::Io,
-                    fmt::format("{}: the script cannot be read, or is empty.", path.string()));
-    }
-    auto script = input::Script::parse(text.str(), path.string(), commands, check_command);
+    const auto text = read_file(path, "the script", most_script_bytes);
+    if (!text) return forward_error(text);
+    auto script = input::Script::parse(*text, path.string(), commands, check_command);
     if (!script) return forward_error(script);
     return std::optional(std::move(*script));
 }
@@ -96,7 +91,7 @@ Viewer::Viewer(const ViewOptions& options, window::Window window, Stage stage,
       ui_({.font_px = font_px * window_.content_scale()}) {
     state_.unit = window_.content_scale();
     state_.can_switch = window::backends().size() > 1;
-    state_.panel = state_.help = state_.probes = options.panel;
+    state_.panel = state_.help = state_.marks.probe = options.panel;
 }
 
 Canvas Viewer::canvas() const {
@@ -272,8 +267,8 @@ Status Viewer::draw(const input::Input& input, double dt_s) {
 
     state_.cursor_px = input.cursor_px();
     state_.probe.reset();
-    if (state_.probes && cursor_seen_ && !drag_ && !ui_.wants_mouse()) {
-        auto probe = stage_.probe(ray_through(view_, input.cursor_px(), size_px_));
+    if (state_.marks.probe && cursor_seen_ && !drag_ && !ui_.wants_mouse()) {
+        auto probe = stage_.probe(panel::ray_through(view_, input.cursor_px(), size_px_));
         if (!probe) return forward_error(probe);
         state_.probe = std::move(*probe);
     }

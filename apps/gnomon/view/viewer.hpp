@@ -63,7 +63,7 @@ private:
     [[nodiscard]] Status handle_keys(const input::Input& input);
     [[nodiscard]] Status handle_mouse(const input::Input& input);
     void begin_drag(const input::Input& input, input::MouseButton button);
-    void begin_object_drag(const Ray& ray);
+    void begin_object_drag(const panel::Ray& ray);
     [[nodiscard]] Status drag_object(const input::Input& input);
     void end_drag();
     void select_next_light();

@@ -13,7 +13,7 @@
 #include <gnomon/scene/scene.hpp>
 #include <gnomon/shadows/view.hpp>
 
-namespace gnomon::cli {
+namespace gnomon::panel {
 
 struct Ray {
     glm::dvec3 origin_world{0.0};
@@ -55,4 +55,4 @@ private:
     std::unordered_map<std::uint64_t, Known> known_;  // by entity
 };
 
-}  // namespace gnomon::cli
+}  // namespace gnomon::panel

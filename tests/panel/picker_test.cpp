@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/picker.hpp"
+#include <gnomon/panel/picker.hpp>
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace gnomon::cli {
+namespace gnomon::panel {
 namespace {
 
 constexpr glm::uvec2 size{640, 480};
@@ -108,4 +108,4 @@ TEST_F(Picking, what_is_not_drawn_is_not_there) {
 }
 
 }  // namespace
-}  // namespace gnomon::cli
+}  // namespace gnomon::panel

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "view/picker.hpp"
+#include <gnomon/panel/picker.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace gnomon::cli {
+namespace gnomon::panel {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::optional<Hit> Picker::pick(const scene::Scene& scene, const Ray& ray) {
     return best;
 }
 
-}  // namespace gnomon::cli
+}  // namespace gnomon::panel
