@@ -67,6 +67,8 @@ void add_options(CLI::App& app, Options& o) {
         ->check(CLI::Range(0.1, 100.0));
     app.add_option("--capture", o.capture.folder, "Write pictures to this folder")
         ->type_name("DIR");
+    app.add_flag("--masks", o.capture.masks,
+                 "With the pictures, what the stencil held of each light (PGM)");
     app.add_flag("--times", o.capture.times,
                  "Tell at the end what frames took: of every tick, or as --every says");
     app.add_option("--every", o.capture.every, "Ticks from picture to picture; default 60")
@@ -174,6 +176,7 @@ int play_windowed(const CLI::App& app, const Options& o) {
                         .speed = o.speed,
                         .record = o.record,
                         .capture = o.capture.folder,
+                        .masks = o.capture.masks,
                         .every = o.capture.every,
                         .screenshot = o.screenshot,
                         .script = o.script,
@@ -240,6 +243,9 @@ int run(int argc, char** argv) {
     }
     if (o.capture.times && !o.headless) {
         return refuse("--times is about frames drawn as fast as it goes; give --headless as well.");
+    }
+    if (o.capture.masks && o.capture.folder.empty()) {
+        return refuse("--masks is about what --capture DIR keeps; give that as well.");
     }
     const bool draws = !o.capture.folder.empty() || o.capture.times;
     if (o.capture.times && app.count("--every") == 0) o.capture.every = 1;

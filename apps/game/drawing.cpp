@@ -48,8 +48,9 @@ render::RendererDesc renderer_desc(const DrawingOptions& options) {
 }
 
 Result<shadows::ShadowSystem> make_shadow_system(const DrawingOptions& options) {
-    return shadows::ShadowSystem::create(
-        {.force_technique = options.technique, .receivers = shadows::Receivers::Submitted});
+    return shadows::ShadowSystem::create({.force_technique = options.technique,
+                                          .silhouette = options.silhouette,
+                                          .receivers = shadows::Receivers::Submitted});
 }
 
 }  // namespace
@@ -75,7 +76,8 @@ Result<Drawing> Drawing::create(gpu::Device& device, Stage& stage, const Drawing
 
 Status Drawing::configure(const DrawingOptions& options) {
     if (options == options_) return {};
-    if (options.technique != options_.technique) {
+    if (options.technique != options_.technique || options.silhouette != options_.silhouette) {
+        list_ = nullptr;
         auto system = make_shadow_system(options);
         if (!system) return forward_error(system);
         system_ = std::move(*system);
@@ -87,24 +89,40 @@ Status Drawing::configure(const DrawingOptions& options) {
 Status Drawing::draw(Stage& stage, const Level& level, const shadows::View& view,
                      const std::function<Status(std::size_t)>& after_light) {
     const auto start = std::chrono::steady_clock::now();
+    const gpu::DeviceCounters before = device_->counters();
+    std::vector<scene::Entity> without_shadow = options_.off;
+    without_shadow.insert(without_shadow.end(), options_.unshadowed.begin(),
+                          options_.unshadowed.end());
+    list_ = nullptr;
     auto frame = system_.begin_frame();
-    if (const Status done = stage.adapter().submit(stage.scene(), frame); !done) return done;
-    const shadows::DrawList& list = std::move(frame).finish(view);
-    stats_ = list.stats;
+    const Status submitted = stage.adapter().submit(stage.scene(), frame, false,
+                                                    shadows::NearCaps::Facing, without_shadow);
+    if (!submitted) return submitted;
+    list_ = &std::move(frame).finish(view);
+    stats_ = list_->stats;
     shadows_ms_ = milliseconds_since(start);
     const Mood& mood = level.mood;
-    return renderer_.render({.scene = stage.scene(),
-                             .view = view,
-                             .shadows = list,
-                             .after_light = after_light,
-                             .environment = {.sky = mood.sky,
-                                             .ground = mood.ground,
-                                             .background = mood.background,
-                                             .exposure = mood.exposure}});
+    const Status rendered = renderer_.render({.scene = stage.scene(),
+                                              .view = view,
+                                              .shadows = *list_,
+                                              .after_light = after_light,
+                                              .unshadowed = options_.unshadowed,
+                                              .environment = {.sky = mood.sky,
+                                                              .ground = mood.ground,
+                                                              .background = mood.background,
+                                                              .exposure = mood.exposure}});
+    const gpu::DeviceCounters after = device_->counters();
+    uploaded_bytes_ = after.uploaded_bytes - before.uploaded_bytes;
+    draw_calls_ = after.draw_calls - before.draw_calls;
+    return rendered;
 }
 
 Result<std::vector<std::byte>> Drawing::read_picture() {
     return device_->read_texture(renderer_.picture());
+}
+
+Result<std::vector<std::byte>> Drawing::read_mask(std::uint32_t sample) {
+    return render::read_stencil(*device_, renderer_, sample);
 }
 
 }  // namespace gnomon::game

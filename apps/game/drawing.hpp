@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <gnomon/core/result.hpp>
@@ -40,6 +41,10 @@ struct DrawingOptions {
     std::uint32_t samples = 4;  ///< 1 or 4
     render::Overlays overlays = {};
     std::optional<shadows::Technique> technique = std::nullopt;  ///< none: whichever is cheaper
+    std::string silhouette = "auto";  ///< a name from shadows::silhouette_strategies(), or "auto"
+    // Lights that are not as the scene has them, in the picture alone: the rules go by all of them.
+    std::vector<scene::Entity> off = {};
+    std::vector<scene::Entity> unshadowed = {};  ///< shine through everything
     bool operator==(const DrawingOptions&) const = default;
 };
 
@@ -59,11 +64,20 @@ public:
 
     /// Four bytes a pixel, row 0 on top. Waits for the device.
     [[nodiscard]] Result<std::vector<std::byte>> read_picture();
+    /// What the stencil holds of a sample now, a byte a pixel, row 0 on top: in `after_light`, that
+    /// light's count. Waits for the device.
+    [[nodiscard]] Result<std::vector<std::byte>> read_mask(std::uint32_t sample);
     [[nodiscard]] const render::Renderer& renderer() const { return renderer_; }
     /// Of the last frame.
     [[nodiscard]] const shadows::FrameStats& shadow_stats() const { return stats_; }
     /// What the shadow system took of the last frame: poses, culling, silhouettes, volumes.
     [[nodiscard]] double shadows_ms() const { return shadows_ms_; }
+    /// Of the last frame, until the next one; null before the first, and after a configure() that
+    /// made another shadow system.
+    [[nodiscard]] const shadows::DrawList* draw_list() const { return list_; }
+    /// Of the last frame.
+    [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
+    [[nodiscard]] std::uint64_t draw_calls() const { return draw_calls_; }
 
 private:
     Drawing(gpu::Device& device, const DrawingOptions& options, shadows::ShadowSystem system,
@@ -75,6 +89,9 @@ private:
     render::Renderer renderer_;
     shadows::FrameStats stats_;
     double shadows_ms_ = 0.0;
+    const shadows::DrawList* list_ = nullptr;  // the system's
+    std::uint64_t uploaded_bytes_ = 0;
+    std::uint64_t draw_calls_ = 0;
 };
 
 }  // namespace gnomon::game

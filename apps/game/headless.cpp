@@ -2,14 +2,15 @@
 #include "headless.hpp"
 
 #include <chrono>
+#include <functional>
 #include <optional>
-#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "capture.hpp"
 #include "devices.hpp"
 #include "drawing.hpp"
-#include "files.hpp"
 
 namespace gnomon::game {
 
@@ -20,11 +21,10 @@ public:
     explicit Camera(const CaptureOptions& options) : options_(options) {}
 
     Status open(World& world) {
-        std::error_code error;
-        if (!options_.folder.empty()) std::filesystem::create_directories(options_.folder, error);
-        if (error) {
-            return fail(ErrorCode::Io, fmt::format("{}: the folder cannot be made: {}.",
-                                                   options_.folder.string(), error.message()));
+        if (!options_.folder.empty()) {
+            auto capture = Capture::into(options_.folder, options_.masks);
+            if (!capture) return forward_error(capture);
+            capture_.emplace(std::move(*capture));
         }
         auto device = cli::create_device({.backend = options_.backend});
         if (!device) return forward_error(device);
@@ -48,7 +48,10 @@ public:
         const double aspect = static_cast<double>(options_.width) / options_.height;
         const shadows::View view = follow(world.level(), world.player(), aspect);
         const auto start = std::chrono::steady_clock::now();
-        if (const Status drawn = drawing_->draw(world.stage(), world.level(), view); !drawn) {
+        const auto after_light =
+            capture_ ? capture_->after_light(*drawing_) : std::function<Status(std::size_t)>();
+        if (const Status drawn = drawing_->draw(world.stage(), world.level(), view, after_light);
+            !drawn) {
             return drawn;
         }
         if (options_.times) {
@@ -59,14 +62,10 @@ public:
                 ended.times.record.push_back(drawing_->renderer().times().record_ms);
             }
         }
-        if (options_.folder.empty()) return {};
-        ++ended.pictures;
-        const auto rgba = drawing_->read_picture();
-        if (!rgba) return forward_error(rgba);
-        cli::OutputFiles files;
-        const Status added = files.add_png(options_.folder / fmt::format("tick_{:06}.png", place),
-                                           options_.width, options_.height, *rgba);
-        return added ? files.commit() : added;
+        if (!capture_) return {};
+        const Status kept = capture_->keep(*drawing_, place);
+        ended.pictures = capture_->pictures();
+        return kept;
     }
 
     [[nodiscard]] const std::string& adapter() const { return device_->caps().adapter; }
@@ -75,6 +74,7 @@ private:
     const CaptureOptions& options_;
     std::optional<gpu::Device> device_;
     std::optional<Drawing> drawing_;
+    std::optional<Capture> capture_;
 };
 
 }  // namespace

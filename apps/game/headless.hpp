@@ -18,6 +18,7 @@ namespace gnomon::game {
 
 struct CaptureOptions {
     std::filesystem::path folder;  ///< made where it is missing; empty: no pictures
+    bool masks = false;            ///< with the pictures (Capture)
     bool times = false;            ///< measure frames; they are kept as pictures in `folder` alone
     std::uint32_t every = 60;      ///< ticks from frame to frame; the first and the last are drawn
     std::string backend;           ///< empty: the first that works
@@ -35,7 +36,7 @@ struct Ended {
     FrameTimes times = {};  ///< without the first frame, which uploads; empty where not asked for
 };
 
-/// Pictures are named by the place of their input in the recording: tick_000120.png.
+/// What is drawn is kept as Capture has it.
 [[nodiscard]] Result<Ended> play(const Level& level, const Recording& recording,
                                  const CaptureOptions& capture = {});
 

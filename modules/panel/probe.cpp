@@ -103,7 +103,11 @@ void show_probe(const Probe& probe, const scene::Registry& registry, const Probe
     list.AddCircleFilled(at(*pixel), 3.5F, IM_COL32(255, 255, 255, 255));
 
     const ImVec2 mouse = at(card.cursor_px);
-    ImGui::SetNextWindowPos({mouse.x + 18.0F, mouse.y + 14.0F});
+    // Towards the picture's middle.
+    const ImVec2 pivot{mouse.x > 0.5F * static_cast<float>(card.size_px.x) ? 1.0F : 0.0F,
+                       mouse.y > 0.7F * static_cast<float>(card.size_px.y) ? 1.0F : 0.0F};
+    ImGui::SetNextWindowPos({mouse.x + 18.0F - 36.0F * pivot.x, mouse.y + 14.0F - 28.0F * pivot.y},
+                            ImGuiCond_Always, pivot);
     ImGui::SetNextWindowBgAlpha(0.88F);
     ImGui::Begin("##probe", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |

@@ -90,9 +90,13 @@ TEST(CommandLine, captures_pictures) {
     const std::filesystem::path folder = output("pictures");
     std::filesystem::remove_all(folder);
     const Said said = say({"--headless", "--replay", file.string(), "--capture", folder.string(),
-                           "--every", "2", "--size", "160x90", "--samples", "1"});
+                           "--every", "2", "--size", "160x90", "--samples", "1", "--masks"});
     if (said.error.find("No backend") != std::string::npos) GTEST_SKIP() << said.error;
     EXPECT_EQ(said.code, 0) << said.error;
+    for (const char* name : {"tick_000000.light0.pgm", "tick_000005.light1.pgm"}) {
+        // "P5\n160 90\n255\n" and a byte a pixel.
+        EXPECT_EQ(std::filesystem::file_size(folder / name), 14U + 160U * 90U) << name;
+    }
     for (const char* name :
          {"tick_000000.png", "tick_000002.png", "tick_000004.png", "tick_000005.png"}) {
         EXPECT_GT(std::filesystem::file_size(folder / name), 1000U) << name;
@@ -150,6 +154,9 @@ TEST(CommandLine, refuses_in_one_sentence) {
          2,
          "gnomon-game: --size is about what is drawn, by --capture DIR or --times alone; give "
          "one as well.\n"},
+        {{"--headless", "--autopilot", "--masks"},
+         2,
+         "gnomon-game: --masks is about what --capture DIR keeps; give that as well.\n"},
         {{"--replay", "x", "--times"},
          2,
          "gnomon-game: --times is about frames drawn as fast as it goes; give --headless as "

@@ -3,11 +3,18 @@
 // gnomon-game as a user runs it, with scripts for hands, in windows of both backends.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <random>
+#include <sstream>
 #include <string>
+#include <vector>
+
+#include <sys/stat.h>
 
 #include <fmt/format.h>
 
@@ -19,6 +26,7 @@
 #include "recording.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/devices.hpp"
+#include "tests/support/share.hpp"
 #include "tests/view/png.hpp"
 
 namespace gnomon::game {
@@ -45,6 +53,73 @@ std::string hash_line_of(const std::filesystem::path& file, const std::filesyste
     const auto ended = play(*level, *recording);
     if (!ended) return ended.error().message;
     return known[file] = fmt::format("hash: {:016x}\n", ended->hash);
+}
+
+/// A line of the script's command "report".
+struct Report {
+    std::string backend;
+    std::uint64_t objects = 0;
+    std::uint64_t held_bytes = 0;
+    std::uint64_t resident_bytes = 0;
+};
+std::vector<Report> reports_in(const std::string& output) {
+    std::vector<Report> reports;
+    std::istringstream lines(output);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("report: ")) continue;
+        std::ranges::replace(line, ',', ' ');
+        std::istringstream words(line);
+        Report report;
+        std::string word;
+        words >> word >> word >> word >> report.backend >> report.objects >> word >> word >>
+            report.held_bytes >> word >> word >> report.resident_bytes;
+        EXPECT_TRUE(words) << line;
+        reports.push_back(report);
+    }
+    return reports;
+}
+std::vector<Report> of(const std::string& backend, const std::vector<Report>& reports) {
+    std::vector<Report> some;
+    std::ranges::copy_if(reports, std::back_inserter(some),
+                         [&](const Report& report) { return report.backend == backend; });
+    return some;
+}
+
+/// What the game holds does not grow; of drivers, a little stays with each device that went.
+void expect_steady(const Report& before, const Report& after, std::size_t devices) {
+    constexpr std::int64_t mib = 1 << 20;
+    const auto grown = [](std::uint64_t from, std::uint64_t to) {
+        return static_cast<std::int64_t>(to) - static_cast<std::int64_t>(from);
+    };
+    EXPECT_LT(grown(before.held_bytes, after.held_bytes), 4 * mib);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return;  // what is freed stays for a while
+#endif
+    EXPECT_LT(grown(before.resident_bytes, after.resident_bytes),
+              16 * mib + static_cast<std::int64_t>(devices) * mib);
+}
+
+/// A level's own recording, a walk of ten seconds at random, each ended by a restart, and so on.
+Recording long_play(const std::string& level, std::size_t ticks, std::uint32_t seed) {
+    Recording winning = gnomon::test::must(
+        load_recording(std::string(GNOMON_GAME_ASSETS) + "/recordings/" + level + ".replay"));
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> axis(-127, 127);
+    Recording play{.level = level, .inputs = {}};
+    while (play.inputs.size() < ticks) {
+        for (int i = 0; i < 20; ++i) {
+            const Input step{.east = static_cast<std::int8_t>(axis(random)),
+                             .south = static_cast<std::int8_t>(axis(random)),
+                             .sneak = i % 5 == 1,
+                             .run = i % 3 == 2};
+            play.inputs.insert(play.inputs.end(), 30, step);
+        }
+        play.inputs.push_back({.restart = true});
+        play.inputs.insert(play.inputs.end(), winning.inputs.begin(), winning.inputs.end());
+        play.inputs.push_back({.restart = true});
+    }
+    play.inputs.resize(ticks);
+    return play;
 }
 
 class GameWindow : public cli::test::ProgramTest {
@@ -105,20 +180,36 @@ protected:
     }
 };
 
-/// What has nothing to do with how a backend draws.
+/// What has nothing to do with how a backend draws; of each in `make soak`.
 class GameWindowOnce : public GameWindowOn {};
 
-TEST_P(GameWindowOn, wins_every_level_by_its_recording_with_the_hash_of_no_window) {
+TEST_P(GameWindowOn, wins_every_level_with_the_hash_of_no_window_and_every_windows_masks) {
+    using Masks = std::map<std::string, std::string>;  // by the file's name
+    static std::map<std::string, Masks> first;         // of a level
     const std::string assets = GNOMON_GAME_ASSETS;
     const auto names = level_names(assets);
     ASSERT_TRUE(names);
     for (const std::string& name : *names) {
         const std::string file = assets + "/recordings/" + name + ".replay";
         const auto ran = run_well(
-            on(scripted("0 move 9 9\n", {"--assets", assets, "--replay", file, "--speed", "100"})));
+            on(scripted("0 move 9 9\n", {"--assets", assets, "--replay", file, "--speed", "100",
+                                         "--capture", name, "--masks", "--every", "350"})));
         EXPECT_THAT(ran.output,
                     AllOf(HasSubstr(": won after "), EndsWith(hash_line_of(file, assets))))
             << name;
+        Masks masks;
+        std::size_t covered = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(path(name))) {
+            if (entry.path().extension() != ".pgm") continue;
+            const std::string mask = entry.path().filename().string();
+            covered += read_mask(name + "/" + mask).covered();
+            masks[mask] = read(name + "/" + mask);
+        }
+        EXPECT_TRUE(masks.contains("tick_000000.light1.pgm")) << name;
+        EXPECT_TRUE(masks.contains("tick_000350.light1.pgm")) << name;
+        EXPECT_GT(covered, 1000U) << name;
+        const auto [known, is_first] = first.emplace(name, masks);
+        EXPECT_TRUE(is_first || masks == known->second) << name;
     }
 }
 
@@ -129,17 +220,65 @@ TEST_P(GameWindowOn, the_clocks_frames_change_no_hash) {
     EXPECT_THAT(ran.output, EndsWith(hash_line_of(path("wait.replay"), path("two"))));
 }
 
-TEST_P(GameWindowOn, a_backend_that_is_exchanged_changes_no_hash) {
+// A hundred times in `make soak`. Frames between: each backend draws.
+TEST_P(GameWindowOn, a_backend_that_is_exchanged_changes_no_hash_and_leaves_nothing_behind) {
     if (window::backends().size() < 2) GTEST_SKIP() << "There is one backend in this build.";
     skip_without(window::Backend::Gl);
     skip_without(window::Backend::Vk);
     if (IsSkipped()) return;
-    write("walk.replay", "gnomon-replay 1\nlevel a-near\nticks 60\n60 90 20 -\nend\n");
-    const auto ran = run_well(
-        on(scripted("4 screenshot before.png\n5 tap F2\n6 backend gl\n7 backend vk\n8 tap F2\n"
-                    "9 screenshot after.png\n",
-                    in_two_levels({"--replay", "walk.replay", "--speed", "4"}))));
+    longest_run_s_ = 1200;
+    const int exchanges = gnomon::test::thorough() ? 100 : 4;
+    const bool from_gl = GetParam() == window::Backend::Gl;
+    std::string script = "2 report\n";
+    for (int i = 0; i < exchanges; ++i) {
+        const int frame = 3 + 2 * i;
+        // By hand, and by a command that ends the run where the exchange fails.
+        script +=
+            i < 2 ? fmt::format("{} tap F2\n", frame)
+                  : fmt::format("{} backend {}\n", frame, (i % 2 == 0) == from_gl ? "vk" : "gl");
+        script += fmt::format("{} report\n", frame + 1);
+    }
+    const int ticks = 2 * exchanges + 4;
+    write("walk.replay",
+          fmt::format("gnomon-replay 1\nlevel a-near\nticks {0}\n{0} 2 1 -\nend\n", ticks));
+    const auto ran = run_well(on(scripted(script, in_two_levels({"--replay", "walk.replay"}))));
     EXPECT_THAT(ran.output, EndsWith(hash_line_of(path("walk.replay"), path("two"))));
+    const std::vector<Report> reports = reports_in(ran.output);
+    ASSERT_EQ(reports.size(), static_cast<std::size_t>(exchanges) + 1);
+    for (const std::string backend : {"gl", "vk"}) {
+        const std::vector<Report> own = of(backend, reports);
+        ASSERT_GE(own.size(), 2U) << backend;
+        EXPECT_GT(own.front().objects, 20U);
+        for (const Report& report : own) {
+            EXPECT_EQ(report.objects, own.front().objects) << backend;
+        }
+        // What is loaded and cached once is there after some.
+        if (gnomon::test::thorough()) {
+            expect_steady(own[own.size() / 5], own.back(), own.size() - 1 - own.size() / 5);
+        }
+    }
+}
+
+TEST_P(GameWindowOn, plays_for_long_at_ten_times_the_speed_in_steady_memory) {
+    longest_run_s_ = 3000;
+    const std::string level = GetParam() == window::Backend::Gl ? "courtyard" : "dockyard";
+    const std::size_t ticks = gnomon::test::thorough() ? 10U * 60U * 60U : 10U * 60U;
+    write("long.replay", to_text(long_play(level, ticks, 7)));
+    std::string script;
+    const std::size_t frames = ticks / 10;
+    for (std::size_t i = 1; i <= 10; ++i) script += fmt::format("{} report\n", frames * i / 10 - 1);
+    const std::string assets = GNOMON_GAME_ASSETS;
+    const auto ran = run_well(
+        on(scripted(script, {"--assets", assets, "--replay", "long.replay", "--speed", "10"})));
+    EXPECT_THAT(ran.output, EndsWith(hash_line_of(path("long.replay"), assets)));
+    const std::vector<Report> reports = reports_in(ran.output);
+    ASSERT_EQ(reports.size(), 10U);
+    // Buffers come when they are first needed.
+    for (const Report& report : reports) {
+        EXPECT_LE(report.objects, reports.back().objects);
+        EXPECT_GE(report.objects + 4, reports.back().objects);
+    }
+    expect_steady(reports[1], reports.back(), 0);
 }
 
 TEST_P(GameWindowOnce, records_what_is_played_but_not_what_is_paused) {
@@ -150,8 +289,9 @@ TEST_P(GameWindowOnce, records_what_is_played_but_not_what_is_paused) {
                     "3 screenshot begun.png\n"
                     "4 press D\n"
                     "24 screenshot walked.png\n"
-                    "25 tap Escape\n"
+                    "25 unfocus\n"  // which pauses, and lets go of D
                     "27 screenshot paused.png\n"
+                    "44 press D\n"
                     "45 tap Escape\n"
                     "50 tap R\n"
                     "51 release D\n"
@@ -270,7 +410,10 @@ TEST_P(GameWindowOnce, keys_do_no_harm) {
 INSTANTIATE_TEST_SUITE_P(Backends, GameWindowOn, testing::ValuesIn(window::backends()),
                          [](const auto& info) { return std::string(window::name_of(info.param)); });
 
-INSTANTIATE_TEST_SUITE_P(Backends, GameWindowOnce, testing::Values(window::backends().front()),
+std::vector<window::Backend> one_backend() {
+    return gnomon::test::thorough() ? window::backends() : std::vector{window::backends().front()};
+}
+INSTANTIATE_TEST_SUITE_P(Backends, GameWindowOnce, testing::ValuesIn(one_backend()),
                          [](const auto& info) { return std::string(window::name_of(info.param)); });
 
 // There is no display to open one on, and that is not what it says.
@@ -283,7 +426,11 @@ TEST_F(GameWindow, says_what_is_wrong_before_a_window_opens) {
     write("bad.input", "0 move 1 2\n1 leap\n");
     write("size.input", "0 size large\n");
     write("moon.replay", "gnomon-replay 1\nlevel moon\nticks 1\n1 0 0 -\nend\n");
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
     const std::pair<Arguments, std::vector<std::string>> rows[] = {
+        {{"--script", "pipe"}, {"pipe: the script must be a plain file"}},
+        {{"--replay", "pipe"}, {"pipe: the recording must be a plain file"}},
+        {{"--masks"}, {"--masks", "--capture"}},
         {{"--level", "moon"}, {"moon", "a-near, b-noon"}},
         {{"--speed", "nan"}, {"--speed must be a number from 0.1 to 100."}},
         {{"--replay", "moon.replay"}, {"moon", "a-near, b-noon"}},
@@ -305,6 +452,10 @@ TEST_F(GameWindow, says_what_is_wrong_before_a_window_opens) {
         EXPECT_THAT(ran.errors, AllOf(StartsWith("gnomon-game: "), EndsWith(".\n")));
         for (const std::string& part : parts) EXPECT_THAT(ran.errors, HasSubstr(part));
     }
+    ASSERT_EQ(::mkfifo(path("two/levels/c-pipe.json").c_str(), 0600), 0);
+    const auto ran = run({"--assets", "two"});
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_THAT(ran.errors, HasSubstr("c-pipe.json: the level must be a plain file"));
     if (display) setenv("DISPLAY", display->c_str(), 1);
 }
 

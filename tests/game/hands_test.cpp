@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <utility>
+#include <vector>
 
+#include "play/pacer.hpp"
 #include "play/stepper.hpp"
 
 namespace gnomon::game {
@@ -182,6 +185,36 @@ TEST(Menus, understand_gamepads_once_a_press) {
     EXPECT_EQ(menu_press(input, buttons), (MenuPress{.back = true}));
 }
 
+TEST(Look, leaves_the_wheel_to_a_panel_that_the_mouse_is_over) {
+    const CameraRig rig;
+    input::Input input;
+    input.begin_frame();
+    input.scroll.y = 2.0;
+    input.press(input::MouseButton::Middle);
+    const Look before{.yaw_rad = 0.5, .nearer = 1.2};
+    const Look over = turned(before, rig, input, {.by_mouse = false, .by_wheel = false}, 0.016);
+    EXPECT_EQ(over.nearer, before.nearer);
+    EXPECT_EQ(over.yaw_rad, before.yaw_rad);
+    EXPECT_EQ(turned(before, rig, input, {}, 0.016).yaw_rad, 0.0) << "as the level does";
+    input.begin_frame();
+    input.scroll.y = 2.0;
+    EXPECT_GT(turned(before, rig, input, {}, 0.016).nearer, before.nearer);
+}
+
+TEST(Menus, a_window_that_loses_the_keyboard_pauses_once_and_lets_go) {
+    input::Input input;
+    input.press(input::Key::W);
+    input.begin_frame();
+    input.lose_focus();
+    Buttons buttons;
+    buttons.see(input);
+    EXPECT_EQ(menu_press(input, buttons), (MenuPress{.interrupted = true}));
+    EXPECT_EQ(pad_of(input), Pad{}) << "nobody walks on";
+    input.begin_frame();
+    buttons.see(input);
+    EXPECT_EQ(menu_press(input, buttons), MenuPress{});
+}
+
 TEST(Menus, a_gamepad_that_is_pulled_out_pauses_once) {
     Buttons buttons;
     buttons.see(input::Input());
@@ -223,11 +256,82 @@ TEST(Steps, do_not_catch_up_with_what_was_slept_through) {
 TEST(Steps, go_at_a_speed) {
     Stepper quick(8.0);
     for (int i = 0; i < 100; ++i) ASSERT_EQ(quick.advance(tick_s), 8U);
-    EXPECT_NEAR(quick.until_next_s(), tick_s / 8.0, 1e-9);
+    EXPECT_NEAR(quick.until_next_s(), tick_s, 1e-9) << "eight ticks a frame";
     Stepper slow(0.5);
     std::uint32_t ticks = 0;
     for (int i = 0; i < 100; ++i) ticks += slow.advance(tick_s);
     EXPECT_EQ(ticks, 50U);
+}
+
+/// Frames as Front::run() makes them, by a clock of the test's own.
+struct Frames {
+    std::vector<double> lengths_s;
+    std::vector<std::uint32_t> ticks;
+};
+/// `drawn` says when a frame that began then has been drawn and shown.
+template <class Drawn>
+Frames frames_of(std::size_t count, const Drawn& drawn) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> overslept_s(0.00002, 0.0003);
+    Stepper stepper;
+    Frames frames;
+    double begun_s = 0.0;
+    double now_s = drawn(0.0);
+    while (frames.ticks.size() < count) {
+        const double nap = nap_s(now_s - begun_s, stepper.until_next_s());
+        if (nap > 0.0) {
+            now_s += nap + overslept_s(random);
+            continue;
+        }
+        frames.lengths_s.push_back(now_s - begun_s);
+        frames.ticks.push_back(stepper.advance(now_s - begun_s));
+        begun_s = now_s;
+        now_s = drawn(begun_s);
+    }
+    return frames;
+}
+
+TEST(Pace, without_a_screen_that_sets_it_is_a_tick_a_frame_as_even_as_ticks) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> work_s(0.001, 0.013);
+    const Frames frames = frames_of(20000, [&](double s) { return s + work_s(random); });
+    double all_s = 0.0;
+    for (std::size_t i = 0; i < frames.ticks.size(); ++i) {
+        ASSERT_EQ(frames.ticks[i], 1U) << i;
+        ASSERT_NEAR(frames.lengths_s[i], tick_s, 0.0007) << i;
+        all_s += frames.lengths_s[i];
+    }
+    EXPECT_NEAR(all_s, 20000.0 * tick_s, 0.001) << "what naps overrun does not add up";
+}
+
+TEST(Pace, is_the_screens_where_that_has_about_sixty_pictures_a_second) {
+    for (const double screen_hz : {59.94, 60.0, 60.05}) {
+        std::mt19937 random(9);
+        std::uniform_real_distribution<double> work_s(0.002, 0.009);
+        std::uniform_real_distribution<double> trembles_s(0.0, 0.0004);
+        const Frames frames = frames_of(6000, [&](double s) {
+            const double shown = std::ceil((s + work_s(random)) * screen_hz) / screen_hz;
+            return shown + trembles_s(random);
+        });
+        // A clock that is another one's is made up for, half a tick at a time.
+        const double others = 6000.0 * std::abs(60.0 / screen_hz - 1.0);
+        std::size_t uneven = 0;
+        for (const std::uint32_t ticks : frames.ticks) uneven += ticks == 1 ? 0 : 1;
+        EXPECT_LE(static_cast<double>(uneven), others + 2.0) << screen_hz;
+    }
+}
+
+TEST(Pace, input_is_looked_at_often) {
+    double since_s = 0.0;
+    int naps = 0;
+    for (double nap = nap_s(since_s, tick_s); nap > 0.0; nap = nap_s(since_s, tick_s)) {
+        EXPECT_LE(nap, 0.0071);
+        since_s += nap;
+        ++naps;
+    }
+    EXPECT_NEAR(since_s, tick_s, 1e-9);
+    EXPECT_GE(naps, 3);
+    EXPECT_EQ(nap_s(0.0, std::numeric_limits<double>::quiet_NaN()), 0.0);
 }
 
 }  // namespace

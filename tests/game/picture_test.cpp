@@ -173,6 +173,45 @@ TEST_P(Pictures, show_what_the_meter_knows) {
     }
 }
 
+// What the panel switches is the picture's alone.
+TEST_P(Pictures, without_a_light_are_others_and_change_no_rule) {
+    World& world = middle_of("courtyard");
+    const std::uint64_t hash = world.hash();
+    DrawingOptions options{.width = 160, .height = 90, .samples = 1};
+    Drawing drawing = test::must(Drawing::create(device(), world.stage(), options));
+    const auto draw = [&] {
+        test::must(drawing.configure(options));
+        test::must(drawing.draw(world.stage(), world.level(), view_of(world)));
+        return test::must(drawing.read_picture());
+    };
+    const auto all = draw();
+    const std::size_t lights = drawing.draw_list()->lights.size();
+    EXPECT_GT(drawing.draw_calls(), 0U);
+    std::size_t seen = 0;  // of the lights, in the picture
+    for (const MeterLight& meter : world.stage().lights()) {
+        const scene::Entity light = scene::Entity::from_key(meter.shadow.key);
+        options.off = {light};
+        options.unshadowed.clear();
+        const auto without = draw();
+        EXPECT_EQ(drawing.draw_list()->lights.size(), lights - 1);
+        std::swap(options.off, options.unshadowed);
+        const auto through = draw();
+        EXPECT_EQ(drawing.draw_list()->lights.size(), lights - 1);
+        seen += without != all && through != all && without != through ? 1 : 0;
+    }
+    EXPECT_GE(seen, 2U);
+    options.unshadowed.clear();
+    EXPECT_EQ(draw(), all);
+    for (const char* strategy : {"brute_force", "dual_bvh"}) {
+        options.silhouette = strategy;
+        EXPECT_EQ(draw(), all) << strategy;
+        EXPECT_EQ(drawing.shadow_stats().silhouette, strategy);
+    }
+    EXPECT_EQ(world.hash(), hash);
+    options.silhouette = "guess";
+    EXPECT_FALSE(drawing.configure(options));
+}
+
 INSTANTIATE_TEST_SUITE_P(Devices, Pictures, testing::ValuesIn(test::drawing_devices()),
                          test::device_case_name);
 

@@ -89,6 +89,15 @@ TEST(Screens, pause_and_go_on) {
     EXPECT_EQ(screens.level(), 1U);
 }
 
+TEST(Screens, a_recording_goes_on_where_nobody_looks) {
+    Screens screens(2, true);
+    screens.begin(0);
+    EXPECT_EQ(screens.press({.interrupted = true}), Order{});
+    EXPECT_EQ(screens.now(), Screen::Playing);
+    EXPECT_EQ(screens.press({.pause = true}), Order{});
+    EXPECT_EQ(screens.now(), Screen::Paused);
+}
+
 TEST(Screens, nothing_but_pause_and_restart_is_a_menu_press_while_playing) {
     Screens screens(2);
     screens.begin(0);

@@ -6,13 +6,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <gnomon/panel/figures.hpp>
+#include <gnomon/panel/probe.hpp>
+
 #include "frame_times.hpp"
 #include "play/hud.hpp"
+#include "play/pacer.hpp"
 
 namespace gnomon::game {
 
@@ -22,8 +27,6 @@ using FrameClock = std::chrono::steady_clock;
 
 /// A device that is lost as often without a frame between will be lost again.
 constexpr int most_device_losses = 3;
-/// As early may a frame be that waits for the next tick.
-constexpr double ready_s = 0.0015;
 /// How long the end of a recording stands, at its speed.
 constexpr double end_stands_s = 2.0;
 constexpr double backdrop_after_s = 0.35;
@@ -31,7 +34,8 @@ constexpr double backdrop_after_s = 0.35;
 }  // namespace
 
 Front::Front(const PlayOptions& options, std::vector<NamedLevel> levels, LoadedSettings settings,
-             window::Window window, std::optional<input::Script> script)
+             window::Window window, std::optional<input::Script> script,
+             std::optional<Capture> capture)
     : options_(options),
       levels_(std::move(levels)),
       settings_(std::move(settings.settings)),
@@ -40,6 +44,7 @@ Front::Front(const PlayOptions& options, std::vector<NamedLevel> levels, LoadedS
       screens_(levels_.size(), options.watched.has_value()),
       window_(std::move(window)),
       script_(std::move(script)),
+      capture_(std::move(capture)),
       stepper_(options.watched ? options.speed : 1.0) {
     for (const NamedLevel& level : levels_) {
         const bool won = std::ranges::find(settings_.won, level.name) != settings_.won.end();
@@ -78,7 +83,7 @@ bool Front::is_over() const {
 }
 
 bool Front::turns_by_mouse(const input::Input& input) const {
-    return captured_ || input.is_down(input::MouseButton::Right);
+    return captured_ || (input.is_down(input::MouseButton::Right) && !ui_->wants_mouse());
 }
 
 MenuPress Front::press_of(const input::Input& input) const {
@@ -112,7 +117,7 @@ Status Front::handle_keys(const input::Input& input) {
     const auto pressed = [&](Key key) { return input.was_pressed(key); };
     if (pressed(Key::F1) || buttons_.was_pressed(PadButton::Y)) panel_.shown = !panel_.shown;
     if (panel_.shown || screens_.now() == Screen::Playing) {
-        const auto switches = overlay_switches(panel_.drawing.overlays);
+        const auto switches = panel::overlay_switches(panel_.drawing.overlays);
         for (std::size_t i = 0; i < switches.size(); ++i) {
             const auto key = static_cast<Key>(static_cast<std::size_t>(Key::Digit1) + i);
             if (pressed(key)) *switches[i] = !*switches[i];
@@ -161,7 +166,11 @@ Status Front::tick(const input::Input& input) {
     if (!ticked) return ticked;
     const World& world = session.world();
     const bool is_last = watches() ? session.is_over() : world.outcome() != Outcome::Playing;
-    picture_due_ = session.played().inputs.size() % options_.every == 0 || is_last;
+    picture_due_ = session.inputs() % options_.every == 0 || is_last;
+    if (!options_.record.empty() && session.is_beyond_recording() && !told_recording_is_full_) {
+        told_recording_is_full_ = true;
+        say("The recording is full: it holds this level's first hour.");
+    }
     if (!is_last) return {};
     if (watches()) {
         ended_ = Ended{.outcome = world.outcome(), .ticks = world.now(), .hash = world.hash()};
@@ -180,6 +189,7 @@ Status Front::simulate(const input::Input& input, double dt_s) {
     if (plays) {
         level_s_ += dt_s;
         LookOptions options{.by_mouse = turns_by_mouse(input) && skipped_motions_ == 0,
+                            .by_wheel = captured_ || !ui_->wants_mouse(),
                             .mouse_speed = settings_.mouse_speed,
                             .inverted = settings_.mouse_inverted};
         look_ = turned(look_, session_->world().level().camera, input, options, dt_s);
@@ -190,7 +200,7 @@ Status Front::simulate(const input::Input& input, double dt_s) {
         }
     }
     const auto begin = FrameClock::now();
-    const bool captures = !options_.capture.empty() && plays;
+    const bool captures = capture_ && plays;
     if (captures && picture_due_) return {};  // of how it begins
     if (plays && !watches() && !is_under_way_) {
         // Whoever reads what the level has to say is not caught meanwhile.
@@ -207,12 +217,37 @@ Status Front::simulate(const input::Input& input, double dt_s) {
     return {};
 }
 
+// Between begin_frame() and end_frame(), of what was drawn.
+void Front::show_marks(const shadows::View& view, const glm::uvec2& size,
+                       const glm::dvec2& cursor_px) {
+    if (drawing_->draw_list() != nullptr) {
+        panel::show_bounds(panel_.marks, *drawing_->draw_list(), size);
+    }
+    const bool asks = panel_.shown && panel_.marks.probe && !captured_ && !ui_->wants_mouse();
+    if (!asks) return;
+    const Stage& stage = session_->world().stage();
+    const auto hit = picker_.pick(stage.scene(), panel::ray_through(view, cursor_px, size));
+    if (!hit) return;
+    const scene::Registry& registry = stage.scene().registry;
+    const panel::Probe probe =
+        panel::probe_at(*hit, registry, stage.queries(), panel_.lights, {}, bounds_.diagonal());
+    panel::show_probe(probe, registry,
+                      {.view = view,
+                       .size_px = size,
+                       .cursor_px = cursor_px,
+                       .bounds = bounds_,
+                       .lights = panel_.lights});
+}
+
 Status Front::draw(const input::Input& input, double dt_s) {
     const auto begin = FrameClock::now();
     const glm::uvec2 size = picture_size();
     panel_.drawing.width = size.x;
     panel_.drawing.height = size.y;
     panel_.drawing.samples = options_.samples.value_or(settings_.samples);
+    panel::SwitchedLights lights = panel::switched(panel_.lights);
+    panel_.drawing.off = std::move(lights.off);
+    panel_.drawing.unshadowed = std::move(lights.unshadowed);
     if (!drawing_) {
         if (const Status made = make_drawing(); !made) return made;
     }
@@ -243,26 +278,30 @@ Status Front::draw(const input::Input& input, double dt_s) {
                .time_s = time_s_,
                .session = &*session_});
     draw_note(canvas, note_, static_cast<float>(std::min(1.0, note_s_ * 2.0)));
-    show_panel(panel_, canvas.unit());
 
-    if (const Status drawn = drawing_->draw(world.stage(), world.level(), view); !drawn) {
+    const bool is_kept = picture_due_ && capture_ && !is_backdrop();
+    const auto after_light =
+        is_kept ? capture_->after_light(*drawing_) : std::function<Status(std::size_t)>();
+    if (const Status drawn = drawing_->draw(world.stage(), world.level(), view, after_light);
+        !drawn) {
         return drawn;
     }
+    panel_.add_figures(*drawing_);
+    // What they change is drawn in the next frame.
+    show_marks(view, size, in_picture.cursor_px());
+    show_panel(panel_, canvas.unit());
     const gpu::TextureId picture = drawing_->renderer().picture();
     if (const Status drawn = ui_pass_->draw(ui_->end_frame(), picture, size.x, size.y); !drawn) {
         return drawn;
     }
     has_drawn_ = true;
-    if (picture_due_ && !options_.capture.empty() && !is_backdrop()) {
-        const auto name = fmt::format("tick_{:06}.png", session_->played().inputs.size());
-        if (const Status kept = save_picture(options_.capture / name); !kept) return kept;
-        ++pictures_;
-        if (ended_) ended_->pictures = pictures_;
+    if (is_kept) {
+        if (const Status kept = capture_->keep(*drawing_, session_->inputs()); !kept) return kept;
+        if (ended_) ended_->pictures = capture_->pictures();
     }
     picture_due_ = false;
     const auto drawn = FrameClock::now();
     const Status shown = window_.present(picture);
-    panel_.shadows = drawing_->shadow_stats();
     const double shadows_ms = panel_.shadows.detect_ms + panel_.shadows.build_ms;
     const auto number = [](double ms) { return static_cast<float>(std::max(ms, 0.0)); };
     panel_.add_times({number(rules_ms_), number(shadows_ms),
@@ -312,7 +351,16 @@ double Front::until_due_s() const {
 Status Front::run() {
     FrameClock::time_point before = FrameClock::now();
     int losses = 0;  // one after the other
+    const auto sleep = [](double s) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(s));
+    };
+    const bool by_clock = !script_ && !options_.frames;
     while (!is_over()) {
+        if (by_clock) {
+            // What is polled is drawn: so the wait comes first.
+            const double early_s = least_frame_s - milliseconds_since(before) * 1e-3;
+            if (early_s > 0.0) sleep(early_s);
+        }
         const input::Input& live = window_.poll();
         if (script_) {
             scripted_.begin_frame();
@@ -320,7 +368,7 @@ Status Front::run() {
         }
         const auto now = FrameClock::now();
         if (window_.is_minimised() && !script_) {
-            if (screens_.now() == Screen::Playing && !watches()) {
+            if (screens_.now() == Screen::Playing) {
                 static_cast<void>(screens_.press({.interrupted = true}));
             }
             update_cursor();
@@ -328,10 +376,9 @@ Status Front::run() {
             continue;
         }
         const double dt_s = milliseconds_between(before, now) * 1e-3;
-        const bool by_clock = !script_ && !options_.frames;
-        const double rest_s = until_due_s() - ready_s - dt_s;
-        if (by_clock && rest_s > 0.0 && !live.anything_happened()) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(std::min(rest_s, 0.004)));
+        const double nap = nap_s(dt_s, until_due_s());
+        if (by_clock && nap > 0.0 && !live.anything_happened()) {
+            sleep(nap);
             continue;
         }
         before = now;

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include <gnomon/input/script.hpp>
+#include <gnomon/panel/picker.hpp>
 #include <gnomon/ui/context.hpp>
 #include <gnomon/ui/ui_pass.hpp>
 #include <gnomon/window/window.hpp>
 
+#include "capture.hpp"
 #include "play/hands.hpp"
 #include "play/pages.hpp"
 #include "play/panel.hpp"
@@ -32,9 +34,10 @@ struct NamedLevel {
 
 class Front {
 public:
-    /// `levels`: at least one.
+    /// `levels`: at least one. `capture`: where pictures of ticks go, if anywhere.
     Front(const PlayOptions& options, std::vector<NamedLevel> levels, LoadedSettings settings,
-          window::Window window, std::optional<input::Script> script);
+          window::Window window, std::optional<input::Script> script,
+          std::optional<Capture> capture);
 
     [[nodiscard]] Status start();
     /// Until the window is closed, somebody quits, or what was to be watched is over.
@@ -49,6 +52,7 @@ private:
     [[nodiscard]] Status simulate(const input::Input& input, double dt_s);
     [[nodiscard]] Status tick(const input::Input& input);
     [[nodiscard]] Status draw(const input::Input& input, double dt_s);
+    void show_marks(const shadows::View& view, const glm::uvec2& size, const glm::dvec2& cursor_px);
     [[nodiscard]] MenuPress press_of(const input::Input& input) const;
     [[nodiscard]] Status handle_keys(const input::Input& input);
     void update_cursor();
@@ -69,6 +73,7 @@ private:
     void save_what_is_sound();  ///< unless the file that is there could not be read
     void remember_win();
     [[nodiscard]] Status keep_recording() const;
+    void report();
     [[nodiscard]] Status save_picture(const std::filesystem::path& path);
     [[nodiscard]] Status exchange(window::Backend backend);
     [[nodiscard]] Status switch_backend();
@@ -88,6 +93,7 @@ private:
     window::Window window_;
     std::optional<input::Script> script_;
     input::Input scripted_;
+    std::optional<Capture> capture_;
 
     std::optional<Session> session_;
     std::size_t backdrop_ = 0;  // the level that the title shows
@@ -102,6 +108,8 @@ private:
     Buttons buttons_;
     Look look_;
     PanelState panel_;
+    panel::Picker picker_;
+    scene::Bounds bounds_;  // of the level
     glm::uvec2 size_px_{0, 0};
     std::string note_;
     double note_s_ = 0.0;
@@ -113,7 +121,7 @@ private:
     double rules_ms_ = 0.0;
     bool is_under_way_ = false;
     bool picture_due_ = false;
-    std::uint32_t pictures_ = 0;
+    bool told_recording_is_full_ = false;
     bool captured_ = false;
     int skipped_motions_ = 0;  // of a cursor that was put elsewhere
     bool over_ = false;

@@ -13,6 +13,7 @@
 
 #include "files.hpp"
 #include "play/front.hpp"
+#include "process_memory.hpp"
 #include "size_text.hpp"
 
 namespace gnomon::game {
@@ -41,6 +42,12 @@ Status Front::begin_level(std::size_t level) {
     session_.emplace(std::move(*session));
     drawing_.reset();
     has_drawn_ = false;
+    const scene::Scene& scene = session_->world().stage().scene();
+    panel_.lights = panel::lights_of(scene);
+    panel_.drawing.off.clear();
+    panel_.drawing.unshadowed.clear();
+    bounds_ = scene::world_bounds(scene);
+    picker_ = {};
     look_ = {};
     stepper_.reset();
     level_s_ = screen_s_ = 0.0;
@@ -108,8 +115,7 @@ Status Front::exchange(window::Backend backend) {
     };
     const auto exchanged = window::exchange(window_, backend, let_go, [&] { return attach(); });
     if (!exchanged) return forward_error(exchanged);
-    panel_.cpu_times.clear();
-    panel_.frame_lengths.clear();
+    panel_.forget_times();
     skipped_motions_ = 3;
     say(exchanged->value_or(panel_.adapter));
     return {};
@@ -168,9 +174,26 @@ void Front::save_what_is_sound() {
 Status Front::keep_recording() const {
     if (options_.record.empty() || !session_ || session_->follows()) return {};
     if (session_->played().inputs.empty()) return {};
+    if (session_->is_beyond_recording()) {
+        fmt::print(stderr,
+                   "gnomon-game: {}: the level was played for {:.1f} minutes, of which a recording "
+                   "holds the first {}.\n",
+                   options_.record.string(),
+                   static_cast<double>(session_->inputs()) * tick_s / 60.0,
+                   most_ticks / (60 * ticks_a_second));
+    }
     cli::OutputFiles files;
     const Status added = files.add(options_.record, to_text(session_->played()));
     return added ? files.commit() : added;
+}
+
+// For who looks for leaks.
+void Front::report() {
+    const ProcessMemory memory = process_memory();
+    fmt::print("report: frame {}, {}, {} GPU objects, {} bytes held, {} resident\n", frames_,
+               window::name_of(window_.backend()), window_.device().counters().objects_alive,
+               memory.held_bytes, memory.resident_bytes);
+    std::fflush(stdout);
 }
 
 Status Front::save_picture(const std::filesystem::path& path) {
@@ -204,6 +227,10 @@ Status Front::obey(const std::string& command) {
     const std::string word = command.substr(0, blank);
     const std::string rest = blank < command.size() ? command.substr(blank + 1) : std::string();
     if (word == "screenshot") return save_picture(rest);
+    if (word == "report") {
+        report();
+        return {};
+    }
     if (word == "size") {
         const auto size = size_from_text(rest);
         GNOMON_EXPECTS(size.has_value());  // read_play_script() saw it

@@ -55,8 +55,8 @@ Pad pad_of(const input::Input& input) {
 
 Look turned(const Look& look, const CameraRig& rig, const input::Input& input,
             const LookOptions& options, double dt_s) {
-    const bool is_reset = input.was_pressed(Key::V) || input.was_pressed(MouseButton::Middle) ||
-                          is_held(input, PadButton::RightThumb);
+    const bool is_reset = input.was_pressed(Key::V) || is_held(input, PadButton::RightThumb) ||
+                          (options.by_wheel && input.was_pressed(MouseButton::Middle));
     if (is_reset) return {};
     glm::dvec2 turn(0.0);  // to the right, and down
     if (options.by_mouse) {
@@ -73,9 +73,10 @@ Look turned(const Look& look, const CameraRig& rig, const input::Input& input,
     next.yaw_rad = std::remainder(look.yaw_rad - turn.x, 2.0 * 3.14159265358979323846);
     next.pitch_rad = std::clamp(look.pitch_rad + turn.y, glm::radians(20.0) - rig.pitch_rad,
                                 glm::radians(85.0) - rig.pitch_rad);
-    const double closer = input.scroll.y + 6.0 * dt_s *
-                                               sign_of(is_held(input, PadButton::RightBumper),
-                                                       is_held(input, PadButton::LeftBumper));
+    const double closer =
+        (options.by_wheel ? input.scroll.y : 0.0) +
+        6.0 * dt_s *
+            sign_of(is_held(input, PadButton::RightBumper), is_held(input, PadButton::LeftBumper));
     next.nearer = std::clamp(look.nearer * std::pow(1.08, closer), least_zoom, most_zoom);
     return next;
 }
@@ -111,7 +112,7 @@ MenuPress menu_press(const input::Input& input, const Buttons& buttons) {
     press.back =
         pressed(Key::Escape) || pressed(Key::Backspace) || buttons.was_pressed(PadButton::B);
     press.pause = pressed(Key::Escape) || pressed(Key::P) || buttons.was_pressed(PadButton::Start);
-    press.interrupted = buttons.was_lost();
+    press.interrupted = buttons.was_lost() || input.focus_lost;
     press.restart = pressed(Key::R) || buttons.was_pressed(PadButton::Back);
     return press;
 }

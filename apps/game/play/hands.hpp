@@ -45,6 +45,7 @@ enum class PadButton : std::uint8_t {
 
 struct LookOptions {
     bool by_mouse = true;  ///< the mouse's motion turns the camera
+    bool by_wheel = true;  ///< its wheel and middle button are the camera's, and not a panel's
     double mouse_speed = 1.0;
     bool inverted = false;
 };

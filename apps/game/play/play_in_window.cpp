@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,7 +17,9 @@ namespace gnomon::game {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> script_commands{"size", "backend", "screenshot"};
+constexpr std::size_t most_script_bytes = 8U << 20U;
+constexpr std::array<std::string_view, 4> script_commands{"size", "backend", "screenshot",
+                                                          "report"};
 
 Status check_script_command(std::string_view command) {
     const std::size_t blank = std::min(command.find(' '), command.size());
@@ -35,18 +34,11 @@ Status check_script_command(std::string_view command) {
     if (word == "backend" && !window_backend_named(rest)) {
         return refuse("there is no such backend in this build.");
     }
+    if (word == "report" && !rest.empty()) return refuse("nothing follows that word.");
     if (word == "screenshot") {
         return rest.empty() ? refuse("a file's name must follow.") : cli::check_writable(rest);
     }
     return {};
-}
-
-Status make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!error) return {};
-    return fail(ErrorCode::Io, fmt::format("{}: the folder cannot be made: {}.", folder.string(),
-                                           error.message()));
 }
 
 }  // namespace
@@ -60,14 +52,9 @@ std::optional<window::Backend> window_backend_named(std::string_view name) {
 
 Result<std::optional<input::Script>> read_play_script(const std::filesystem::path& path) {
     if (path.empty()) return std::optional<input::Script>();
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (!file || !(text << file.rdbuf())) {
-        return fail(ErrorCode::Io,
-                    fmt::format("{}: the script cannot be read, or is empty.", path.string()));
-    }
-    auto script =
-        input::Script::parse(text.str(), path.string(), script_commands, check_script_command);
+    const auto text = cli::read_file(path, "the script", most_script_bytes);
+    if (!text) return forward_error(text);
+    auto script = input::Script::parse(*text, path.string(), script_commands, check_script_command);
     if (!script) return forward_error(script);
     return std::optional(std::move(*script));
 }
@@ -105,8 +92,11 @@ Result<std::optional<Ended>> play_in_window(const PlayOptions& options) {
         if (!level) return forward_error(level);
         levels.push_back({name, std::move(*level)});
     }
+    std::optional<Capture> capture;
     if (!options.capture.empty()) {
-        if (const Status made = make_folder(options.capture); !made) return forward_error(made);
+        auto made = Capture::into(options.capture, options.masks);
+        if (!made) return forward_error(made);
+        capture.emplace(std::move(*made));
     }
     LoadedSettings loaded = load_settings(options.settings);
     if (!loaded.complaint.empty()) fmt::print(stderr, "gnomon-game: {}\n", loaded.complaint);
@@ -125,7 +115,7 @@ Result<std::optional<Ended>> play_in_window(const PlayOptions& options) {
     }
     if (!window) return forward_error(window);
     Front front(options, std::move(levels), std::move(loaded), std::move(*window),
-                std::move(*script));
+                std::move(*script), std::move(capture));
     if (const Status started = front.start(); !started) return forward_error(started);
     if (const Status done = front.run(); !done) return forward_error(done);
     return front.ended();

@@ -25,6 +25,7 @@ struct PlayOptions {
     double speed = 1.0;                     ///< of `watched`
     std::filesystem::path record = {};      ///< what is pressed in the level that was played last
     std::filesystem::path capture = {};     ///< a folder for pictures; empty: none
+    bool masks = false;                     ///< and the stencil counts of each
     std::uint32_t every = 60;               ///< ticks from picture to picture
     std::filesystem::path screenshot = {};  ///< of what the window showed last
     std::filesystem::path script = {};      ///< input instead of keyboard, mouse and gamepad

@@ -101,7 +101,8 @@ Order Screens::accept() {
 
 Order Screens::press(const MenuPress& press) {
     if (now_ == Screen::Playing) {
-        if (press.pause || press.interrupted) {
+        // Who watches is not needed.
+        if (press.pause || (press.interrupted && !watches_)) {
             show(Screen::Paused);
         } else if (press.restart && !watches_) {
             return {.kind = Order::Kind::Restart};

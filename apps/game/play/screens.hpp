@@ -44,7 +44,8 @@ struct MenuPress {
     bool back = false;
     bool pause = false;
     bool restart = false;
-    bool interrupted = false;  ///< somebody cannot go on: pauses, and never resumes
+    /// Who plays cannot go on: pauses, and never resumes; nothing where a recording plays.
+    bool interrupted = false;
     std::optional<std::size_t> pointed = std::nullopt;  ///< the item that the mouse moved to
     bool operator==(const MenuPress&) const = default;
 };

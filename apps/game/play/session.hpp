@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -37,6 +38,10 @@ public:
     [[nodiscard]] const World& world() const { return world_; }
     /// What was pressed: at most `most_ticks`, the first ones.
     [[nodiscard]] const Recording& played() const { return played_; }
+    /// How many inputs there were, those that played() has no room for included.
+    [[nodiscard]] std::uint64_t inputs() const { return inputs_; }
+    /// Inputs are lost to played().
+    [[nodiscard]] bool is_beyond_recording() const { return inputs_ > played_.inputs.size(); }
     /// The most that the alarm has come to since the level began.
     [[nodiscard]] double worst_alarm() const { return worst_alarm_; }
     [[nodiscard]] bool follows() const { return follows_; }
@@ -46,6 +51,7 @@ private:
 
     World world_;
     Recording played_;
+    std::uint64_t inputs_ = 0;
     std::vector<Input> script_;
     bool follows_ = false;
     double worst_alarm_ = 0.0;

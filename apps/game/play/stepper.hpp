@@ -42,8 +42,12 @@ public:
         return static_cast<std::uint32_t>(ticks);
     }
 
-    /// How long a frame may last until a tick is due.
-    [[nodiscard]] double until_next_s() const { return (tick_s - left_s_) / speed_; }
+    /// How long a frame is to last for the next ticks to be due: one, or of a quick game as many as
+    /// it is quicker. What is owed counts, so that who keeps to it owes nothing in the end.
+    [[nodiscard]] double until_next_s() const {
+        const double ticks = std::max(1.0, std::floor(speed_));
+        return (ticks * tick_s - left_s_) / speed_ - owed_s_;
+    }
     /// Forgets what is left.
     void reset() { left_s_ = owed_s_ = 0.0; }
 
