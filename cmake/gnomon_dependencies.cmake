@@ -1,6 +1,11 @@
 # What gnomon is built from. Everything is a Debian 12 package; nothing is downloaded. A missing optional dependency
 # switches one named part off and says so.
 
+if(EMSCRIPTEN)
+  include(gnomon_web)
+  return()
+endif()
+
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)
 
@@ -66,6 +71,15 @@ endif()
 if(GNOMON_SCENE)
   find_package(TinyGLTF REQUIRED)
   find_package(nlohmann_json REQUIRED)
+endif()
+
+if(GNOMON_WEBGPU)
+  if(GNOMON_GPU)
+    find_package(nlohmann_json QUIET)
+  endif()
+  if(NOT GNOMON_GPU OR NOT TARGET nlohmann_json::nlohmann_json)
+    set(GNOMON_WEBGPU OFF)
+  endif()
 endif()
 
 if(GNOMON_TRUTH)

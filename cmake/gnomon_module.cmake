@@ -53,6 +53,10 @@ endif()
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(gnomon_compile_options INTERFACE -Wno-subobject-linkage)
 endif()
+# Sizes of 64 bits become sizes of 32 there, on purpose.
+if(EMSCRIPTEN)
+  target_compile_options(gnomon_compile_options INTERFACE -Wno-shorten-64-to-32 -Wno-sign-conversion)
+endif()
 if(GNOMON_SANITIZE)
   target_compile_options(gnomon_compile_options INTERFACE
     -fsanitize=${GNOMON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
@@ -120,11 +124,17 @@ endfunction()
 # turns GLSL (Vulkan dialect) in the caller's shaders/ into one header <gnomon_shaders/name.hpp> that holds, per file,
 # the SPIR-V for Vulkan and the desktop GLSL for GL that SPIRV-Cross makes from that very SPIR-V, as
 # gnomon::<name>::shaders::<file with dots as underscores>. Files that end in .glsl are only included by others.
+# For the web the header holds the WGSL instead, <file>.wgsl beside <file>, with what it includes.
 function(gnomon_add_shaders target name)
   set(header ${GNOMON_SHADER_ROOT}/gnomon_shaders/${name}.hpp)
   set(position ${PROJECT_SOURCE_DIR}/modules/shadow_pass/shaders)
   set(sources)
   set(includes)
+  set(languages spirv,glsl)
+  if(EMSCRIPTEN)
+    set(languages wgsl)
+  endif()
+  file(GLOB wgsl CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/shaders/*.wgsl ${position}/*.wgsl)
   foreach(file IN LISTS ARGN)
     if(file MATCHES "\\.glsl$")
       list(APPEND includes ${CMAKE_CURRENT_SOURCE_DIR}/shaders/${file})
@@ -135,10 +145,11 @@ function(gnomon_add_shaders target name)
   string(REPLACE ";" "," joined "${sources}")
   add_custom_command(OUTPUT ${header}
     COMMAND ${CMAKE_COMMAND} -DHEADER=${header} -DSHADERS=${joined} -DNAME=${name}
+      -DLANGUAGES=${languages}
       -DINCLUDES=-I${position},-I${CMAKE_CURRENT_SOURCE_DIR}/shaders
       -DGLSLANG=${GLSLANG_VALIDATOR} -DSPIRV_CROSS=${SPIRV_CROSS}
       -P ${PROJECT_SOURCE_DIR}/cmake/compile_shaders.cmake
-    DEPENDS ${sources} ${includes} ${position}/position.glsl ${PROJECT_SOURCE_DIR}/cmake/compile_shaders.cmake
+    DEPENDS ${sources} ${includes} ${wgsl} ${position}/position.glsl ${PROJECT_SOURCE_DIR}/cmake/compile_shaders.cmake
     COMMENT "Compiling the shaders of ${name}" VERBATIM)
   add_custom_target(${target}_shaders DEPENDS ${header})
   add_dependencies(${target} ${target}_shaders)

@@ -49,12 +49,11 @@ struct Limits {
 
 /// An adapter: who it is, what it has, how much of it.
 struct Caps {
-    std::string backend;  ///< "gl", "vk" or "null"
-    std::string adapter;  ///< the driver's own name for itself and its version
-    std::string
-        stencil_path;   ///< GL: "two-side", "separate" or "two-pass"; Vulkan and null: "native"
-    Features features;  ///< what it has
-    Limits limits;      ///< how much of it
+    std::string backend;       ///< "gl", "vk", "webgpu" or "null"
+    std::string adapter;       ///< the driver's own name for itself and its version
+    std::string stencil_path;  ///< GL: "two-side", "separate" or "two-pass"; all others: "native"
+    Features features;         ///< what it has
+    Limits limits;             ///< how much of it
 };
 
 }  // namespace gnomon::gpu

@@ -140,6 +140,11 @@ TEST(Descriptor, ShadersHaveTheSourceThatTheBackendTakes) {
     expect_outcome(create("vk", no_spirv),
                    "The SPIR-V source of [Shader \"s\"] is empty, and the backend takes SPIR-V. "
                    "While creating [Shader \"s\"].");
+    expect_outcome(create("webgpu", no_spirv),
+                   "The WGSL source of [Shader \"s\"] is empty, and the backend takes WGSL. While "
+                   "creating [Shader \"s\"].");
+    const auto wgsl_alone = [](ShaderDesc& desc) { desc.source = {.wgsl = "fn main() {}"}; };
+    expect_outcome(create("webgpu", wgsl_alone), valid);
 }
 
 TEST(Descriptor, QuerySet) {

@@ -68,6 +68,7 @@ const std::vector<Layer>& layers() {
          {"glm/", "tl/", "fmt/", "GLFW/", "vulkan/"}},
         {"gl", {"backends/gl/"}, {"gpu"}, {"tl/", "fmt/", "GL/", "GLFW/", "KHR/", "dlfcn.h"}},
         {"vk", {"backends/vk/"}, {"gpu"}, {"tl/", "fmt/", "vulkan/", "volk.h", "dlfcn.h"}},
+        {"webgpu", {"backends/webgpu/"}, {"gpu"}, {"tl/", "fmt/", "nlohmann/"}},
     };
     return table;
 }

@@ -73,6 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
                    nullptr},
         IncludeRow{"glfw", "backends/gl/glfw_context.cpp", "<GLFW/glfw3.h>", nullptr},
         IncludeRow{"volk", "backends/vk/device.cpp", "<volk.h>", nullptr},
+        IncludeRow{"webgpu_json", "backends/webgpu/objects.cpp", "<nlohmann/json.hpp>", nullptr},
         IncludeRow{"embree", "modules/truth/truth.cpp", "<embree3/rtcore.h>", nullptr},
         IncludeRow{"report", "modules/report/page.cpp", "<gnomon/truth/truth.hpp>", nullptr},
         IncludeRow{"app", "apps/gnomon/main.cpp", "<gnomon/render/renderer.hpp>", nullptr},

@@ -107,7 +107,7 @@ Result<ShaderRecord> validate(DeviceState& device, const ShaderDesc& desc) {
                        to_text(desc.stage));
     }
     const std::string& backend = device.caps().backend;
-    if (desc.source.spirv.empty() && desc.source.glsl.empty()) {
+    if (desc.source.spirv.empty() && desc.source.glsl.empty() && desc.source.wgsl.empty()) {
         return invalid("The source of {} is empty.", name);
     }
     if (backend == "gl" && desc.source.glsl.empty()) {
@@ -115,6 +115,9 @@ Result<ShaderRecord> validate(DeviceState& device, const ShaderDesc& desc) {
     }
     if (backend == "vk" && desc.source.spirv.empty()) {
         return invalid("The SPIR-V source of {} is empty, and the backend takes SPIR-V.", name);
+    }
+    if (backend == "webgpu" && desc.source.wgsl.empty()) {
+        return invalid("The WGSL source of {} is empty, and the backend takes WGSL.", name);
     }
     return ShaderRecord{desc.label, desc.stage};
 }

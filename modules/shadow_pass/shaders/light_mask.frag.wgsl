@@ -1,0 +1,3 @@
+// As light_mask.frag says.
+@fragment
+fn main() -> @location(0) vec4f { return vec4f(1.0); }

@@ -1,0 +1,3 @@
+// Volumes write no colour.
+@fragment
+fn main() {}

@@ -1,0 +1,2 @@
+@fragment
+fn main(@location(0) v_color: vec4f) -> @location(0) vec4f { return v_color; }
