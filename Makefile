@@ -4,11 +4,11 @@ PREFIX ?= /usr/local
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build play demo test soak bench peers savings report docs package install format tidy clean FORCE
+.PHONY: help setup build play demo test soak web web-serve web-test bench peers savings report docs package install format tidy clean FORCE
 
 help: ## this list
 	@echo "gnomon: exact hard shadows. Targets:"
-	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 18
+	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 18
 
 setup: ## install the packages that are missing (Debian 12)
 	@scripts/setup
@@ -55,6 +55,26 @@ soak: build/build.ninja build/asan-full/build.ninja build/tsan/build.ninja ## th
 	@cmake --build --preset tsan
 	@ctest --preset tsan -j$(JOBS)
 	@JOBS=$(JOBS) scripts/fuzz 720
+
+# Emscripten and the browser are in no other build's way.
+build/web/build.ninja: CMakePresets.json
+	@scripts/setup --web
+	@cmake --preset web
+	@touch $@
+
+web: build/web/build.ninja ## the viewer as a page, by Emscripten: build/web/site, to be served
+	@cmake --build build/web --target gnomon_web
+	@echo "page: build/web/site; make web-serve shows it on http://127.0.0.1:8080/"
+
+web-serve: web ## serve the page on this machine's loopback until interrupted
+	@node tests/web/server.mjs build/web/site 8080
+
+# The browser draws first; then what it drew is judged by the tests of the ordinary build.
+web-test: build/web/build.ninja build/build.ninja ## the tests in a real browser, and its masks against Vulkan's and the truth
+	@cmake --build build/web
+	@ctest --preset web
+	@cmake --build build --target test_web_masks
+	@GNOMON_WEB_MASKS=$(CURDIR)/build/web/masks.bin ctest --test-dir build -R '^web_masks$$' --output-on-failure
 
 # How long the strategies are compared; all the rest takes some minutes more.
 BENCH_SECONDS ?= 240

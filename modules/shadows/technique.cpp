@@ -93,7 +93,7 @@ NearClip::NearClip(const glm::dvec4& light_world, const View& view)
 }
 
 NearClip::Side NearClip::extent_along(const glm::dvec3& unit) const {
-    const Extent hull = project(std::span(hull_.begin(), hull_.begin() + hull_count_), unit);
+    const Extent hull = project(std::span(hull_).first(static_cast<std::size_t>(hull_count_)), unit);
     const double along = directional_ ? glm::dot(light_, unit) : 0.0;
     const double tiny = directional_ ? 1e-12 * glm::length(light_) : 0.0;
     return {unit, along < -tiny ? -std::numeric_limits<double>::infinity() : hull.low,

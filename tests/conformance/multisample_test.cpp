@@ -65,8 +65,7 @@ TEST_P(Multisample, ResolveIsTheMeanOfTheSamples) {
 
 TEST_P(Multisample, StencilIsCountedForEachSample) {
     if (!features().sampled_stencil) GTEST_SKIP() << "no sampled_stencil";
-    for (const gpu::Format format :
-         {gpu::Format::Depth32FloatStencil8, gpu::Format::Depth24UnormStencil8}) {
+    for (const gpu::Format format : depth_stencil_formats(device())) {
         const Painting painting = painted(format);
         for (int sample = 0; sample < 4; ++sample) {
             const auto colors =

@@ -22,6 +22,14 @@ std::vector<Vertex> triangles_of(const Rectangle& q) {
     return {a, c, b, a, d, c};
 }
 
+std::vector<gpu::Format> depth_stencil_formats(const gpu::Device& device) {
+    const gpu::Features& features = device.caps().features;
+    std::vector<gpu::Format> formats;
+    if (features.depth24unorm_stencil8) formats.push_back(gpu::Format::Depth24UnormStencil8);
+    if (features.depth32float_stencil8) formats.push_back(gpu::Format::Depth32FloatStencil8);
+    return formats;
+}
+
 gpu::Buffer make_buffer_of_bytes(gpu::Device& device, gpu::BufferUsage usage,
                                  std::span<const std::byte> bytes) {
     std::vector<std::byte> padded(bytes.begin(), bytes.end());

@@ -89,6 +89,9 @@ private:
     gpu::Shader vertex_, fragment_;
 };
 
+/// Those that hold stencil, of the formats that the device has.
+[[nodiscard]] std::vector<gpu::Format> depth_stencil_formats(const gpu::Device& device);
+
 /// A vertex, index or uniform buffer with these bytes.
 template <class T>
 [[nodiscard]] gpu::Buffer make_buffer(gpu::Device& device, gpu::BufferUsage usage,

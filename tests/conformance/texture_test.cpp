@@ -188,8 +188,7 @@ TEST_P(Textures, AVertexShaderFetchesTexels) {
 
 TEST_P(Textures, DepthAndStencilOfOneTextureAreReadAtOnce) {
     if (!features().sampled_stencil) GTEST_SKIP() << "no sampled_stencil";
-    for (const gpu::Format format :
-         {gpu::Format::Depth32FloatStencil8, gpu::Format::Depth24UnormStencil8}) {
+    for (const gpu::Format format : depth_stencil_formats(device())) {
         Painting painting(
             device(), {.depth_stencil_format = format, .clear_depth = 0.25F, .clear_stencil = 9});
         const gpu::StencilFaceState replace{.pass_op = gpu::StencilOp::Replace};

@@ -15,6 +15,9 @@
 #if GNOMON_HAS_VK
 #include <gnomon/vk/backend.hpp>
 #endif
+#if GNOMON_HAS_WEBGPU
+#include <gnomon/webgpu/backend.hpp>
+#endif
 #include "examples/09_skeleton_backend.hpp"
 
 /// Read by the leak sanitizer where it is on: Mesa keeps a few hundred bytes for each OSMesa
@@ -123,6 +126,11 @@ std::vector<DeviceCase> all_devices() {
 #if GNOMON_HAS_VK
     cases.push_back(vk_case(adapter));
 #endif
+#if GNOMON_HAS_WEBGPU
+    cases.push_back({.name = "webgpu", .draws = true, .create_backend = [](gpu::MessageSink sink) {
+                         return webgpu::create_backend({.message_sink = std::move(sink)});
+                     }});
+#endif
     cases.push_back({.name = "null", .draws = false, .create_backend = [](const gpu::MessageSink&) {
                          return BackendResult(gpu::create_null_backend());
                      }});
@@ -172,7 +180,8 @@ std::string rasteriser_of(const gpu::Device& device) {
     for (const char* name : {"llvmpipe", "SwiftShader"}) {
         if (adapter.find(name) != std::string::npos) return name;
     }
-    return adapter;
+    // What a browser calls it.
+    return adapter.find("swiftshader") != std::string::npos ? "SwiftShader" : adapter;
 }
 
 bool is_required(const std::string& device_name) {

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+//
+// The page in the browser, as somebody uses it:
+//   node page.mjs --site FOLDER --out FOLDER [--frames N]
+// Each claim is a line; pictures of the page go to --out, to be looked at. Exits with 1 where a claim does not hold or
+// the console has an error, and with 77 and the reason where there is no browser.
+import assert from 'node:assert/strict';
+import {mkdirSync, writeFileSync} from 'node:fs';
+import path from 'node:path';
+
+import {Browser, findChromium} from './browser.mjs';
+import {serve} from './server.mjs';
+
+const skipped = 77;
+const option = (name, otherwise) => {
+    const at = process.argv.indexOf(name);
+    return at < 0 ? otherwise : process.argv[at + 1];
+};
+const site = option('--site');
+const out = option('--out');
+const frames = Number(option('--frames', '1000'));
+
+/// A pyramid over nothing, as somebody might drop it: the smallest .glb with triangles.
+function pyramid() {
+    const positions = new Float32Array([-1, 0, -1, 1, 0, -1, 1, 0, 1, -1, 0, 1, 0, 1.5, 0]);
+    const indices = new Uint16Array([0, 1, 2, 0, 2, 3, 1, 0, 4, 2, 1, 4, 3, 2, 4, 0, 3, 4]);
+    const binary = Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer)]);
+    const json = Buffer.from(JSON.stringify({
+        asset: {version: '2.0'}, scene: 0, scenes: [{nodes: [0]}], nodes: [{mesh: 0, name: 'pyramid'}],
+        meshes: [{primitives: [{attributes: {POSITION: 0}, indices: 1}]}],
+        buffers: [{byteLength: binary.length}],
+        bufferViews: [{buffer: 0, byteLength: 60}, {buffer: 0, byteOffset: 60, byteLength: 36}],
+        accessors: [
+            {bufferView: 0, componentType: 5126, count: 5, type: 'VEC3', min: [-1, 0, -1], max: [1, 1.5, 1]},
+            {bufferView: 1, componentType: 5123, count: 18, type: 'SCALAR'},
+        ],
+    }));
+    const padded = Buffer.concat([json, Buffer.alloc((4 - json.length % 4) % 4, ' ')]);
+    const chunk = (type, data) => {
+        const head = Buffer.alloc(8);
+        head.writeUInt32LE(data.length, 0);
+        head.write(type, 4, 'latin1');
+        return Buffer.concat([head, data]);
+    };
+    const body = Buffer.concat([chunk('JSON', padded), chunk('BIN\0', binary)]);
+    const head = Buffer.alloc(12);
+    head.write('glTF', 0, 'latin1');
+    head.writeUInt32LE(2, 4);
+    head.writeUInt32LE(12 + body.length, 8);
+    return Buffer.concat([head, body]);
+}
+
+class Visitor {
+    constructor(browser, url) {
+        this.browser = browser;
+        this.url = url;
+        this.errors = [];
+    }
+
+    async come(more = {}, query = '') {
+        this.page = await this.browser.page({...more, onConsole: (type, text) => {
+            if (type === 'error') this.errors.push(text);
+        }});
+        if (more.before) await this.page.call('Page.addScriptToEvaluateOnNewDocument', {source: more.before});
+        await this.page.open(this.url + query);
+        await this.until('document.body.dataset.frames > 0 || document.body.dataset.failed');
+    }
+
+    evaluate(expression) { return this.page.evaluate(expression); }
+
+    async until(expression, seconds = 120) {
+        await this.evaluate(`new Promise((resolve, reject) => {
+            const begin = performance.now();
+            const look = () => {
+                if (${expression}) resolve();
+                else if (performance.now() - begin > ${seconds * 1000}) reject(new Error(${JSON.stringify(expression)} + ' does not come true'));
+                else setTimeout(look, 20);
+            };
+            look();
+        })`);
+    }
+
+    /// The figures of a frame that is drawn from now on.
+    async nextFrame(times = 2) {
+        const now = await this.evaluate('Number(document.body.dataset.frames)');
+        await this.evaluate('gnomon.dirty = true');
+        for (let i = 1; i <= times; ++i) {
+            await this.until(`document.body.dataset.frames >= ${now + i}`);
+            await this.evaluate('gnomon.dirty = true');
+        }
+        return this.figures();
+    }
+
+    figures() {
+        return this.evaluate(`Object.fromEntries([...document.querySelectorAll('#figures dt')].map(
+            term => [term.textContent, term.nextElementSibling.textContent]))`);
+    }
+
+    note() { return this.evaluate("document.getElementById('note').hidden ? '' : document.getElementById('note').textContent"); }
+
+    /// Does what a control does, and waits for what comes of it.
+    async choose(id, value) {
+        await this.evaluate(`(() => {
+            const element = document.getElementById(${JSON.stringify(id)});
+            if (element.type === 'checkbox') element.checked = ${JSON.stringify(value)};
+            else element.value = ${JSON.stringify(value)};
+            element.dispatchEvent(new Event('change'));
+        })()`);
+        await this.evaluate('gnomon.core.last');
+        return this.nextFrame();
+    }
+
+    async keepPicture(name) {
+        mkdirSync(out, {recursive: true});
+        writeFileSync(path.join(out, name), await this.page.screenshot());
+    }
+
+    async leave() { await this.page.call('Page.close'); }
+}
+
+const claims = [];
+const claim = (text, test, more) => claims.push({text, test, more});
+
+claim('the first picture is there, and says what it drew', async visitor => {
+    assert.equal(await visitor.evaluate('document.body.dataset.failed ?? ""'), '');
+    const figures = await visitor.nextFrame();
+    assert.ok(Number(figures.pairs) > 0, JSON.stringify(figures));
+    assert.match(await visitor.evaluate("document.getElementById('adapter').textContent"), /swiftshader/i);
+    assert.equal(await visitor.note(), '');
+    await visitor.keepPicture('wide.png');
+});
+
+claim('every built-in scene comes, with four samples and with one', async visitor => {
+    const names = await visitor.evaluate("[...document.getElementById('scene').options].map(o => o.value)");
+    assert.ok(names.length > 3);
+    for (const name of names) {
+        for (const samples of [true, false]) {
+            await visitor.choose('samples', samples);
+            const figures = await visitor.choose('scene', name);
+            assert.ok(Number(figures.pairs) > 0, name);
+            assert.equal(await visitor.note(), '', name);
+        }
+        await visitor.keepPicture(`scene-${name}.png`);
+    }
+});
+
+claim('every debug view and technique is drawn', async visitor => {
+    for (const name of ['volumes', 'silhouettes', 'caps', 'wireframe', 'count', 'fill']) {
+        await visitor.choose(`show-${name}`, true);
+        await visitor.keepPicture(`show-${name}.png`);
+        assert.equal(await visitor.note(), '', name);
+        await visitor.choose(`show-${name}`, false);
+    }
+    for (const technique of ['zpass', 'zfail', 'auto']) {
+        const figures = await visitor.choose('technique', technique);
+        const [zpass, zfail] = figures['depth-pass, depth-fail'].split(', ').map(Number);
+        if (technique === 'zpass') assert.equal(zfail, 0);
+        if (technique === 'zfail') assert.equal(zpass, 0);
+        assert.ok(zpass + zfail > 0, technique);
+    }
+    await visitor.choose('ground', true);
+    await visitor.choose('ground', false);
+});
+
+claim('a camera that moves finds no silhouette anew; a light that is dragged does', async visitor => {
+    await visitor.choose('scene', 'pillars');
+    const drag = async (x, y, dx, dy) => {
+        await visitor.page.mouse('mousePressed', x, y);
+        for (let i = 1; i <= 4; ++i) {
+            await visitor.page.mouse('mouseMoved', x + dx * i / 4, y + dy * i / 4, {buttons: 1});
+        }
+        await visitor.page.mouse('mouseReleased', x + dx, y + dy);
+        await visitor.evaluate('gnomon.core.last');
+    };
+    await visitor.nextFrame();
+    await visitor.evaluate(`gnomon.anew = 0; gnomon.moved = 0;
+        new MutationObserver(() => {
+            const of = name => Number([...document.querySelectorAll('#figures dt')].find(t => t.textContent === name).nextElementSibling.textContent);
+            gnomon.anew += of('found anew');
+            gnomon.moved += 1;
+        }).observe(document.getElementById('figures'), {childList: true})`);
+    await drag(500, 600, 60, 10);
+    await visitor.nextFrame();
+    assert.equal(await visitor.evaluate('gnomon.anew'), 0, 'orbiting found silhouettes');
+    assert.ok(await visitor.evaluate('gnomon.moved') > 0);
+    const light = await visitor.evaluate(`(() => {
+        const box = document.querySelector('#marks i').getBoundingClientRect();
+        return {x: box.x + box.width / 2, y: box.y + box.height / 2};
+    })()`);
+    await drag(light.x, light.y, 40, 20);
+    await visitor.nextFrame();
+    assert.ok(await visitor.evaluate('gnomon.anew') > 0, 'the light was not caught');
+    const moved = await visitor.evaluate(`document.querySelector('#marks i').getBoundingClientRect().x`);
+    assert.ok(Math.abs(moved + 7 - light.x - 40) < 12, `the light is at ${moved + 7} instead of ${light.x + 40}`);
+});
+
+claim('a file that is dropped is shown, and one that is none is refused in a sentence', async visitor => {
+    const drop = (name, bytes) => visitor.evaluate(`(async () => {
+        const bytes = Uint8Array.from(atob(${JSON.stringify(bytes.toString('base64'))}), c => c.charCodeAt(0));
+        const data = new DataTransfer();
+        data.items.add(new File([bytes], ${JSON.stringify(name)}));
+        document.getElementById('stage').dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
+        await new Promise(resolve => setTimeout(resolve, 300));
+        await gnomon.core.last;
+    })()`);
+    await drop('pyramid.glb', pyramid());
+    assert.equal(await visitor.note(), '');
+    assert.match(await visitor.evaluate("document.getElementById('facts').textContent"), /^6 triangles, 1 light/);
+    await visitor.choose('ground', true);
+    await visitor.keepPicture('dropped.png');
+    await drop('broken.glb', pyramid().subarray(0, 200));
+    assert.match(await visitor.note(), /broken\.glb.*\.$/);
+    assert.match(await visitor.evaluate("document.getElementById('facts').textContent"), /^6 triangles/, 'the old scene stays');
+    await drop('picture.jpg', Buffer.from('no model'));
+    assert.match(await visitor.note(), /picture\.jpg is no \.glb/);
+});
+
+claim(`memory is steady over ${frames} frames`, async visitor => {
+    await visitor.choose('scene', 'pillars');
+    await visitor.evaluate("document.getElementById('turn').click()");
+    const measure = () => visitor.evaluate(`({
+        memory: gnomon.core.module.asm.memory.buffer.byteLength,
+        objects: Object.values(gnomon.core.bridge.objects).reduce((n, table) => n + table.filter(o => o).length, 0),
+        places: Object.values(gnomon.core.bridge.objects).reduce((n, table) => n + table.length, 0),
+    })`);
+    const begin = await visitor.evaluate('Number(document.body.dataset.frames)');
+    await visitor.until(`document.body.dataset.frames > ${begin + frames / 5}`, 300);
+    const early = await measure();
+    await visitor.until(`document.body.dataset.frames > ${begin + frames}`, 600);
+    const late = await measure();
+    assert.deepEqual(late, early);
+    await visitor.evaluate("document.getElementById('turn').click()");
+}, {width: 480, height: 240});
+
+claim('a phone has all of it', async visitor => {
+    await visitor.nextFrame();
+    await visitor.keepPicture('narrow.png');
+    const wide = await visitor.evaluate('document.documentElement.scrollWidth <= window.innerWidth');
+    assert.ok(wide, 'it is wider than the screen');
+    await visitor.evaluate("document.getElementById('fold').click()");
+    await visitor.nextFrame();
+    await visitor.keepPicture('narrow-folded.png');
+}, {width: 390, height: 844, scale: 2, touch: true});
+
+claim('without depth clamping it draws', async visitor => {
+    assert.equal(await visitor.evaluate('document.body.dataset.failed ?? ""'), '');
+    const figures = await visitor.nextFrame();
+    assert.ok(Number(figures.pairs) > 0);
+    assert.equal(await visitor.note(), '');
+}, {query: '?without=depth-clip-control&without=timestamp-query&without=float32-filterable'});
+
+claim('without depth32float-stencil8 it says what is missing', async visitor => {
+    assert.match(await visitor.note(), /lacks depth32float-stencil8.*\.$/);
+}, {query: '?without=depth32float-stencil8'});
+
+claim('without WebGPU it says so', async visitor => {
+    assert.match(await visitor.note(), /^WebGPU is missing: .*\.$/);
+    await visitor.keepPicture('without-webgpu.png');
+}, {before: "Object.defineProperty(navigator, 'gpu', {value: undefined})"});
+
+claim('a device that is lost is one sentence', async visitor => {
+    await visitor.evaluate('gnomon.core.bridge.device.destroy()');
+    await visitor.until("!document.getElementById('note').hidden");
+    assert.match(await visitor.note(), /device is lost.*\.$/);
+});
+
+async function main() {
+    if (!findChromium()) {
+        console.log('skipped: there is no Chromium (package chromium; scripts/setup --web)');
+        return skipped;
+    }
+    const server = await serve({'/': site});
+    const browser = await Browser.launch({timeout: 660_000});
+    let failed = 0;
+    try {
+        for (const {text, test, more = {}} of claims) {
+            const visitor = new Visitor(browser, server.url);
+            const begin = performance.now();
+            try {
+                await visitor.come({width: 1280, height: 720, ...more}, more.query ?? '');
+                await test(visitor);
+                assert.deepEqual(visitor.errors, [], 'errors on the console');
+                console.log(`ok      ${text} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
+            } catch (error) {
+                ++failed;
+                console.log(`FAILED  ${text}: ${error.message}`);
+                if (visitor.errors.length > 0) console.log(`        console: ${visitor.errors.join('; ')}`);
+            }
+            await visitor.leave().catch(() => {});
+        }
+    } finally {
+        await browser.close();
+        await server.close();
+    }
+    return failed > 0 ? 1 : 0;
+}
+
+main().then(code => { process.exitCode = code; }, error => {
+    console.error(error.message);
+    process.exitCode = 1;
+});
