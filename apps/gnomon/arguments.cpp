@@ -215,12 +215,4 @@ Result<shadows::FillOptions> parse_without(std::string_view text) {
     return fill;
 }
 
-std::string one_line(std::string text) {
-    for (char& c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7F) c = ' ';
-    }
-    return text;
-}
-
 }  // namespace gnomon::cli

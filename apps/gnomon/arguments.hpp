@@ -57,6 +57,12 @@ struct Motion {
 
 /// `text` with every control character made a space: names in files may hold line breaks and
 /// terminal codes, and a message is one line.
-[[nodiscard]] std::string one_line(std::string text);
+[[nodiscard]] inline std::string one_line(std::string text) {
+    for (char& c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte == 0x7F) c = ' ';
+    }
+    return text;
+}
 
 }  // namespace gnomon::cli

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The lights of a scene as a panel shows them: a name, whether it shines, whether it casts shadows.
+// The lights of a scene as a panel has them: a name, whether it shines, whether it casts shadows.
 // Switching one changes nothing in the scene; whoever draws leaves out what is off.
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,10 +44,5 @@ struct SwitchedLights {
 /// world transform is up to date.
 [[nodiscard]] glm::dvec3 handle_of(const scene::Registry& registry, scene::Entity light,
                                    const scene::Bounds& bounds);
-
-/// A table of them with their switches; those of many scroll. `selected` is lit up. Returns the one
-/// whose name was clicked.
-std::optional<std::size_t> show_lights(std::span<LightLine> lights,
-                                       std::optional<std::size_t> selected = std::nullopt);
 
 }  // namespace gnomon::panel

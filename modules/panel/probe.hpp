@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The probe: what the shadow queries say of the point under the mouse, light by light, and the card
-// beside the mouse that shows it.
+// The probe: what the shadow queries say of the point under the mouse, light by light.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -16,7 +14,6 @@
 #include <gnomon/panel/picker.hpp>
 #include <gnomon/scene/scene.hpp>
 #include <gnomon/shadows/shadow_query.hpp>
-#include <gnomon/shadows/view.hpp>
 
 namespace gnomon::panel {
 
@@ -39,17 +36,5 @@ struct Probe {
                              const shadows::ShadowQueries& queries,
                              std::span<const LightLine> lights,
                              std::span<const scene::Entity> unshadowed, double size_m);
-
-/// What the card is drawn with.
-struct ProbeCard {
-    const shadows::View& view;
-    glm::uvec2 size_px{0};
-    glm::dvec2 cursor_px{0.0};
-    const scene::Bounds& bounds;  ///< of the scene: how finely places are told
-    std::span<const LightLine> lights;
-};
-/// The card, and lines to the lights in the background. Between ui::Context::begin_frame() and
-/// end_frame().
-void show_probe(const Probe& probe, const scene::Registry& registry, const ProbeCard& card);
 
 }  // namespace gnomon::panel

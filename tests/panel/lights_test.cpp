@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
-#include <gnomon/panel/lights.hpp>
+#include <gnomon/panel/light_table.hpp>
 
 #include <string>
 

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include <gnomon/panel/figures.hpp>
-#include <gnomon/panel/probe.hpp>
+#include <gnomon/panel/probe_card.hpp>
 
 #include "frame_times.hpp"
 #include "play/hud.hpp"

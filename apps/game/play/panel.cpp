@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 #include <gnomon/panel/figures.hpp>
+#include <gnomon/panel/light_table.hpp>
 
 namespace gnomon::game {
 

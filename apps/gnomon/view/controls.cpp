@@ -5,7 +5,6 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "view/marks.hpp"
 #include "view/viewer.hpp"
 
 namespace gnomon::cli {
@@ -111,7 +110,7 @@ void Viewer::begin_drag(const input::Input& input, MouseButton button) {
         return;
     }
     const panel::Ray ray = panel::ray_through(view_, input.cursor_px(), size_px_);
-    if (const auto light = light_under(stage_, view_, size_px_, input.cursor_px())) {
+    if (const auto light = stage_.light_under(view_, size_px_, input.cursor_px())) {
         // A handle is small and there to be dragged: no click before.
         state_.selection = {Selection::Kind::Light, stage_.lights()[*light].entity};
         drag.kind = Drag::Kind::Object;

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include <gnomon/panel/figures.hpp>
+#include <gnomon/panel/probe_card.hpp>
 #include <gnomon/ui/context.hpp>
 
 #include "view/panel.hpp"
@@ -16,7 +17,6 @@ namespace gnomon::cli {
 
 namespace {
 
-constexpr double reach_px = 16.0;
 ImU32 packed(const glm::vec4& color, float alpha = 1.0F) {
     return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, color.a * alpha});
 }
@@ -42,7 +42,7 @@ void draw_sun(ImDrawList& list, const ImVec2& c, float radius, ImU32 color, floa
 
 void show_handles(ImDrawList& list, const ViewState& state, const Stage& stage,
                   const shadows::View& view, const glm::uvec2& size_px) {
-    const auto hovered = light_under(stage, view, size_px, state.cursor_px);
+    const auto hovered = stage.light_under(view, size_px, state.cursor_px);
     for (std::size_t i = 0; i < stage.lights().size(); ++i) {
         const panel::LightLine& light = stage.lights()[i];
         const scene::Registry& registry = stage.shot().scene.registry;
@@ -130,19 +130,6 @@ void show_hints(ImDrawList& list, const ViewState& state, const Stage& stage,
 }
 
 }  // namespace
-
-std::optional<std::size_t> light_under(const Stage& stage, const shadows::View& view,
-                                       const glm::uvec2& size_px, const glm::dvec2& cursor_px) {
-    std::optional<std::size_t> nearest;
-    double best = reach_px;
-    for (std::size_t i = 0; i < stage.lights().size(); ++i) {
-        const auto pixel = panel::pixel_of(view, stage.handle_of(stage.lights()[i]), size_px);
-        if (!pixel || !(glm::distance(*pixel, cursor_px) < best)) continue;
-        best = glm::distance(*pixel, cursor_px);
-        nearest = i;
-    }
-    return nearest;
-}
 
 void show_marks(const ViewState& state, const Stage& stage, const shadows::View& view,
                 const glm::uvec2& size_px) {

@@ -4,19 +4,11 @@
 // found, scissors and reasons.
 #pragma once
 
-#include <cstddef>
-#include <optional>
-
 #include <glm/glm.hpp>
 
 #include "view/view_state.hpp"
 
 namespace gnomon::cli {
-
-/// A light whose handle is within reach of the cursor.
-[[nodiscard]] std::optional<std::size_t> light_under(const Stage& stage, const shadows::View& view,
-                                                     const glm::uvec2& size_px,
-                                                     const glm::dvec2& cursor_px);
 
 /// Between ui::Context::begin_frame() and end_frame(), behind the panel.
 void show_marks(const ViewState& state, const Stage& stage, const shadows::View& view,

@@ -13,6 +13,7 @@
 
 #include <gnomon/panel/choices.hpp>
 #include <gnomon/panel/figures.hpp>
+#include <gnomon/panel/light_table.hpp>
 #include <gnomon/ui/context.hpp>
 
 namespace gnomon::cli {

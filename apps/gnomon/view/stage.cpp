@@ -21,6 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double reach_px = 16.0;
+
 double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
@@ -123,7 +125,7 @@ Status Stage::draw(const shadows::View& view, const glm::uvec2& size_px) {
         return drawn;
     }
     const auto waiting = Clock::now();
-    if (const Status idle = device_->wait_idle(); !idle) return idle;
+    if (const Status idle = waits_ ? device_->wait_idle() : Status(); !idle) return idle;
 
     const gpu::DeviceCounters after = device_->counters();
     figures_.detect_ms = list_->stats.detect_ms;
@@ -143,6 +145,19 @@ std::optional<std::size_t> Stage::light_of(scene::Entity entity) const {
     const auto found = std::ranges::find(lights_, entity, &panel::LightLine::entity);
     if (found == lights_.end()) return std::nullopt;
     return static_cast<std::size_t>(found - lights_.begin());
+}
+
+std::optional<std::size_t> Stage::light_under(const shadows::View& view, const glm::uvec2& size_px,
+                                              const glm::dvec2& cursor_px) const {
+    std::optional<std::size_t> nearest;
+    double best = reach_px;
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        const auto pixel = panel::pixel_of(view, handle_of(lights_[i]), size_px);
+        if (!pixel || !(glm::distance(*pixel, cursor_px) < best)) continue;
+        best = glm::distance(*pixel, cursor_px);
+        nearest = i;
+    }
+    return nearest;
 }
 
 void Stage::show_ground(bool shown) {

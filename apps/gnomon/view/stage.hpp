@@ -44,8 +44,11 @@ public:
     [[nodiscard]] Status set_device(gpu::Device& device, const glm::uvec2& size_px);
     void drop_device();
 
-    /// Draws, and waits until it is drawn. `options()` as they are now count.
+    /// Draws, and waits until it is drawn, unless told not to. `options()` as they are now count.
     [[nodiscard]] Status draw(const shadows::View& view, const glm::uvec2& size_px);
+    /// Where waiting is not possible, FrameFigures::device_ms is submission alone. The default
+    /// waits.
+    void wait_for_device(bool wait) { waits_ = wait; }
     [[nodiscard]] gpu::TextureId picture() const;
     [[nodiscard]] const FrameFigures& figures() const { return figures_; }
     /// Of the last draw(), where has_drawn(); good until the next one.
@@ -69,6 +72,10 @@ public:
     [[nodiscard]] glm::dvec3 handle_of(const panel::LightLine& light) const {
         return panel::handle_of(shot_.scene.registry, light.entity, shot_.bounds);
     }
+    /// A light whose handle is within 16 pixels of the cursor; the nearest.
+    [[nodiscard]] std::optional<std::size_t> light_under(const shadows::View& view,
+                                                         const glm::uvec2& size_px,
+                                                         const glm::dvec2& cursor_px) const;
 
     /// A floor below everything, for models that have nothing to cast a shadow on. Receives, and
     /// casts none. Nothing happens where the scene is empty. Its entity goes with it: see
@@ -121,7 +128,8 @@ private:
     std::optional<std::uint32_t> ground_material_;  // stays when the ground goes
     std::vector<scene::Entity> unshadowed_;         // lights of the last draw()
     bool upload_due_ = false;                       // meshes came or went
-    const shadows::DrawList* list_ = nullptr;       // the system's
+    bool waits_ = true;
+    const shadows::DrawList* list_ = nullptr;  // the system's
     FrameFigures figures_;
 };
 

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "viewer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <gnomon/scene/scene_description.hpp>
+#include <gnomon/webgpu/backend.hpp>
+
+#include "view/mover.hpp"
+
+namespace gnomon::web {
+
+namespace {
+
+using Json = Viewer::Json;
+
+constexpr double radians_per_pixel = 0.008;
+constexpr std::uint32_t largest_size_px = 8192;
+
+glm::dvec2 point_of(const Json& order) { return {order.value("x", 0.0), order.value("y", 0.0)}; }
+
+Json one_of(const std::string& name) { return Json{{"name", name}}; }
+
+}  // namespace
+
+Json Viewer::obey(const Json& order) {
+    const std::string what = order.value("do", "");
+    Result<Json> answer = done(what, order);
+    Json json = answer ? std::move(*answer) : Json{{"error", answer.error().message}};
+    if (!complaint_.empty() && !json.contains("error"))
+        json["error"] = std::exchange(complaint_, {});
+    return json;
+}
+
+Result<Json> Viewer::done(const std::string& what, const Json& order) {
+    if (what == "start") return start();
+    if (what == "scenes") return Json{{"scenes", scene::builtin_scene_names()}};
+    if (!device_) {
+        return fail(ErrorCode::InvalidInput, fmt::format("\"{}\" comes before \"start\".", what));
+    }
+    if (what == "load") return load(order);
+    if (what == "size") {
+        const auto side = [&](const char* name) {
+            return static_cast<std::uint32_t>(
+                std::clamp(order.value(name, 1.0), 1.0, double{largest_size_px}));
+        };
+        size_px_ = {side("width"), side("height")};
+        return Json::object();
+    }
+    if (!stage_) {
+        return fail(ErrorCode::InvalidInput, fmt::format("\"{}\" comes before \"load\".", what));
+    }
+    if (what == "press") return press(order);
+    if (what == "drag") return drag(order);
+    if (what == "turn") return turn(order);
+    if (what == "options") return options(order);
+    if (what == "draw") return draw(order);
+    if (what == "release") {
+        drag_.reset();
+        return Json::object();
+    }
+    if (what == "zoom") {
+        camera_.zoom(order.value("notches", 0.0));
+        return Json::object();
+    }
+    if (what == "frame") {
+        camera_.frame(stage_->shot().bounds, canvas(), true);
+        return Json::object();
+    }
+    if (what == "look") {
+        camera_.orbit(glm::radians(order.value("yaw_deg", 0.0)),
+                      glm::radians(order.value("pitch_deg", 0.0)));
+        return Json::object();
+    }
+    if (what == "light") {
+        const std::size_t place = order.value("place", std::size_t{0});
+        if (place >= stage_->lights().size()) {
+            return fail(ErrorCode::InvalidInput,
+                        fmt::format("There is no light {}: the scene has {}.", place,
+                                    stage_->lights().size()));
+        }
+        stage_->lights()[place].on = order.value("on", true);
+        return Json::object();
+    }
+    return fail(ErrorCode::InvalidInput, fmt::format("There is no order \"{}\".", what));
+}
+
+Result<Json> Viewer::start() {
+    auto backend =
+        webgpu::create_backend({.message_sink = [this](gpu::Severity, std::string_view message) {
+            if (complaint_.empty()) complaint_ = message;
+        }});
+    if (!backend) return forward_error(backend);
+    if (stage_) stage_->drop_device();
+    device_.emplace(std::move(*backend));
+    if (stage_) {
+        if (const Status attached = attach(); !attached) return forward_error(attached);
+    }
+    const gpu::Caps& caps = device_->caps();
+    return Json{{"adapter", caps.adapter},
+                {"unclipped_depth", caps.features.unclipped_depth},
+                {"timestamps", caps.features.timestamp_query}};
+}
+
+Status Viewer::attach() { return stage_->set_device(*device_, size_px_); }
+
+Result<Json> Viewer::load(const Json& order) {
+    cli::RenderOptions options;
+    if (stage_) options = stage_->options();
+    options.scene = order.value("source", "");
+    options.size = {size_px_.x, size_px_.y};
+    auto loaded = cli::Stage::load(options);
+    if (!loaded) return forward_error(loaded);
+    const bool ground = stage_ && stage_->has_ground();
+    drag_.reset();
+    if (stage_) stage_->drop_device();
+    stage_.emplace(std::move(*loaded));
+    time_s_ = 0.0;
+    if (ground) stage_->show_ground(true);
+    const cli::Shot& shot = stage_->shot();
+    camera_ = cli::OrbitCamera(shot.camera, shot.world_from_camera, shot.near_m, shot.bounds);
+    // What moves, plays.
+    std::vector<std::size_t> all(shot.scene.animations.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    if (!all.empty()) all.resize(1);
+    stage_->play(std::move(all));
+    if (const Status attached = attach(); !attached) return forward_error(attached);
+    Json lights = Json::array();
+    for (const panel::LightLine& light : stage_->lights()) lights.push_back(one_of(light.name));
+    return Json{{"triangles", stage_->triangles()},
+                {"lights", std::move(lights)},
+                {"animated", stage_->duration_s() > 0.0},
+                {"messages", shot.scene.messages}};
+}
+
+Result<Json> Viewer::press(const Json& order) {
+    Drag drag{.pan = order.value("pan", false), .light = std::nullopt, .at_px = point_of(order)};
+    const auto light = stage_->light_under(view_, size_px_, drag.at_px);
+    if (!drag.pan && light) {
+        const panel::LightLine& held = stage_->lights()[*light];
+        drag.light = light;
+        drag.grabbed = stage_->handle_of(held);
+        drag.start_local = stage_->shot().scene.registry.get<scene::LocalTransform>(held.entity);
+    }
+    drag_ = drag;
+    return Json{{"caught", drag.light ? "light" : "camera"}};
+}
+
+Result<Json> Viewer::drag(const Json& order) {
+    if (!drag_) return Json::object();
+    const glm::dvec2 now = point_of(order);
+    const glm::dvec2 motion = now - drag_->at_px;
+    if (!drag_->light) {
+        drag_->at_px = now;
+        if (drag_->pan) {
+            camera_.pan(motion, canvas());
+        } else {
+            // As far as a picture of 720 pixels would be turned, whatever the screen's pixels.
+            const double scale = radians_per_pixel * 720.0 / std::max(1U, size_px_.y);
+            camera_.orbit(-motion.x * scale, -motion.y * scale);
+        }
+        return Json::object();
+    }
+    const panel::LightLine& light = stage_->lights()[*drag_->light];
+    const glm::dvec3 normal =
+        order.value("along_ground", false) ? glm::dvec3(0.0, 1.0, 0.0) : -camera_.forward();
+    const auto way =
+        cli::dragged_in_plane(panel::ray_through(view_, now, size_px_), drag_->grabbed, normal);
+    if (!way) return Json::object();
+    glm::dmat4 moved = glm::translate(glm::dmat4(1.0), *way);
+    if (panel::is_directional(stage_->shot().scene.registry, light.entity)) {
+        const scene::Bounds& all = stage_->shot().bounds;
+        const glm::dvec3 pivot = all.empty() ? glm::dvec3(0.0) : all.center();
+        moved = cli::turned_towards(pivot, drag_->grabbed - pivot, drag_->grabbed + *way - pivot);
+    }
+    if (const Status done = stage_->move(light.entity, drag_->start_local, moved); !done) {
+        return forward_error(done);
+    }
+    return Json::object();
+}
+
+Result<Json> Viewer::turn(const Json& order) {
+    if (stage_->lights().empty()) return Json::object();
+    const panel::LightLine& light = stage_->lights().front();
+    const scene::Bounds& all = stage_->shot().bounds;
+    const glm::dvec3 pivot = all.empty() ? glm::dvec3(0.0) : all.center();
+    const glm::dmat4 motion =
+        cli::turned_about(pivot, {1.0, 0.0, 0.0}, glm::radians(order.value("yaw_deg", 0.0)), 0.0);
+    const auto start = stage_->shot().scene.registry.get<scene::LocalTransform>(light.entity);
+    if (const Status done = stage_->move(light.entity, start, motion); !done) {
+        return forward_error(done);
+    }
+    return Json::object();
+}
+
+Result<Json> Viewer::options(const Json& order) {
+    cli::RenderOptions& options = stage_->options();
+    if (const auto overlays = order.find("overlays"); overlays != order.end()) {
+        const auto read = [&](const char* name, bool& value) {
+            value = overlays->value(name, value);
+        };
+        read("volumes", options.overlays.volumes);
+        read("silhouettes", options.overlays.silhouettes);
+        read("caps", options.overlays.caps);
+        read("wireframe", options.overlays.wireframe);
+        read("count", options.overlays.count);
+        read("fill", options.overlays.fill);
+    }
+    if (order.contains("samples")) options.samples = order["samples"] == 4 ? 4 : 1;
+    if (order.contains("technique")) {
+        const std::string technique = order.value("technique", "auto");
+        options.technique.reset();
+        if (technique == "zpass") options.technique = shadows::Technique::DepthPass;
+        if (technique == "zfail") options.technique = shadows::Technique::DepthFail;
+        stage_->shadows_changed();
+    }
+    if (order.contains("ground")) stage_->show_ground(order.value("ground", false));
+    return Json::object();
+}
+
+Result<Json> Viewer::draw(const Json& order) {
+    const double seconds = order.value("seconds", 0.0);
+    if (seconds != 0.0 && stage_->duration_s() > 0.0) {
+        time_s_ += seconds;
+        if (const Status posed = stage_->set_time(time_s_); !posed) return forward_error(posed);
+    }
+    stage_->wait_for_device(order.value("wait", false));
+    view_ = camera_.view(canvas());
+    if (const Status drawn = stage_->draw(view_, size_px_); !drawn) return forward_error(drawn);
+    if (order.value("show", true)) {
+        if (const Status shown = device_->present(stage_->picture()); !shown) {
+            return forward_error(shown);
+        }
+    }
+    return figures();
+}
+
+Json Viewer::figures() const {
+    const cli::FrameFigures& f = stage_->figures();
+    Json reasons = Json::object();
+    for (std::size_t i = 0; i < shadows::reason_count; ++i) {
+        if (f.shadows.reasons[i] == 0) continue;
+        const auto reason = static_cast<shadows::Reason>(i);
+        reasons[std::string(shadows::to_string(reason))] = f.shadows.reasons[i];
+    }
+    Json lights = Json::array();
+    for (const panel::LightLine& light : stage_->lights()) {
+        const auto pixel = panel::pixel_of(view_, stage_->handle_of(light), size_px_);
+        const bool sun = panel::is_directional(stage_->shot().scene.registry, light.entity);
+        lights.push_back(pixel ? Json{{"x", pixel->x}, {"y", pixel->y}, {"sun", sun}} : Json());
+    }
+    return Json{{"detect_ms", f.detect_ms},
+                {"build_ms", f.build_ms},
+                {"record_ms", f.record_ms},
+                {"device_ms", f.device_ms},
+                {"frame_ms", f.frame_ms},
+                {"upload_bytes", f.upload_bytes},
+                {"draw_calls", f.draw_calls},
+                {"pairs", f.shadows.pairs},
+                {"pairs_redetected", f.shadows.pairs_redetected},
+                {"pairs_reused", f.shadows.pairs_reused},
+                {"pairs_culled", f.shadows.pairs_culled},
+                {"zpass_pairs", f.shadows.zpass_pairs},
+                {"zfail_pairs", f.shadows.zfail_pairs},
+                {"silhouette_edges", f.shadows.silhouette_edges},
+                {"reasons", std::move(reasons)},
+                {"lights", std::move(lights)}};
+}
+
+}  // namespace gnomon::web

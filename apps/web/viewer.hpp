@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+//
+// The viewer behind the page: the stage of `gnomon view`, its camera and what a pointer does to
+// them, driven by orders in JSON and answering in JSON. The page (page/viewer.js) owns the canvas,
+// the loop and everything that is text; it knows nothing of shadows.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <gnomon/gpu/device.hpp>
+
+#include "view/orbit_camera.hpp"
+#include "view/stage.hpp"
+
+namespace gnomon::web {
+
+class Viewer {
+public:
+    using Json = nlohmann::json;
+
+    /// An order is an object whose member "do" is one of
+    ///   start    {}                               the device; answers adapter and features
+    ///   scenes   {}                               names of the built-in scenes
+    ///   load     {source, name}                   "builtin:NAME" or a file; the old scene stays
+    ///                                             where it fails
+    ///   size     {width, height}                  of the picture, in pixels
+    ///   press    {x, y, pan}                      pixels; answers what was caught
+    ///   drag     {x, y, along_ground}
+    ///   release  {}
+    ///   zoom     {notches}
+    ///   frame    {}                               all of the scene, from the standard view
+    ///   look     {yaw_deg, pitch_deg}             the camera, round what it looks at
+    ///   turn     {yaw_deg}                        the first light, about the scene's middle
+    ///   light    {place, on}
+    ///   options  {overlays, samples, technique, caps, ground}   those that are named
+    ///   draw     {seconds, wait}                  plays, draws and shows; answers figures
+    /// The answer has a member "error", one sentence, where it was not done.
+    [[nodiscard]] Json obey(const Json& order);
+
+private:
+    struct Drag {
+        bool pan = false;
+        std::optional<std::size_t> light;
+        glm::dvec2 at_px{0.0};
+        scene::LocalTransform start_local = {};
+        glm::dvec3 grabbed{0.0};
+    };
+
+    [[nodiscard]] Result<Json> done(const std::string& what, const Json& order);
+    [[nodiscard]] Result<Json> start();
+    [[nodiscard]] Result<Json> load(const Json& order);
+    [[nodiscard]] Result<Json> press(const Json& order);
+    [[nodiscard]] Result<Json> drag(const Json& order);
+    [[nodiscard]] Result<Json> turn(const Json& order);
+    [[nodiscard]] Result<Json> options(const Json& order);
+    [[nodiscard]] Result<Json> draw(const Json& order);
+    [[nodiscard]] Json figures() const;
+    [[nodiscard]] Status attach();
+    [[nodiscard]] cli::Canvas canvas() const { return {size_px_, 0.0}; }
+
+    std::optional<gpu::Device> device_;
+    std::string complaint_;  // the first that the device had since the last answer
+    std::optional<cli::Stage> stage_;
+    cli::OrbitCamera camera_;
+    shadows::View view_;
+    glm::uvec2 size_px_{640, 360};
+    std::optional<Drag> drag_;
+    double time_s_ = 0.0;
+};
+
+}  // namespace gnomon::web
