@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <gnomon/core/expects.hpp>
-
 #include "internal/guest_target.hpp"
 
 namespace gnomon::shadow_pass {
@@ -15,7 +13,7 @@ struct GuestPass::State {
     gpu::Device* device = nullptr;
     GuestPassDesc desc;
     ShadowPass pass;
-    std::size_t lights = 0;
+    std::optional<std::size_t> lights = std::nullopt;  // of the list; nothing: none is prepared
     // By light, while the pass's revision stays: what count() submitted.
     std::vector<std::optional<gpu::CommandBuffer>> recorded;
     std::uint64_t recorded_revision = 0;
@@ -38,22 +36,23 @@ Result<GuestPass> GuestPass::create(gpu::Device& device, const GuestPassDesc& de
 
 Status GuestPass::prepare(const shadows::DrawList& list, const shadows::HostView& view) {
     State& s = *state_;
+    s.lights.reset();
     const Status fits = internal::check_view(s.desc, view, "the guest pass");
     if (!fits) return fits;
-    s.lights = 0;
     if (const Status prepared = s.pass.prepare(list, view.as_drawn, s.desc.size); !prepared) {
         return prepared;
     }
     s.lights = list.lights.size();
     if (s.recorded_revision != s.pass.revision()) s.recorded.clear();
     s.recorded_revision = s.pass.revision();
-    s.recorded.resize(s.lights);
+    s.recorded.resize(*s.lights);
     return {};
 }
 
 Status GuestPass::count(std::size_t light) {
     State& s = *state_;
-    GNOMON_EXPECTS(light < s.lights);
+    const Status known = internal::check_lights(s.lights, light, 1, "the guest pass", "be counted");
+    if (!known) return known;
     std::optional<gpu::CommandBuffer>& commands = s.recorded[light];
     if (!commands) {
         gpu::CommandEncoder encoder = s.device->create_command_encoder("guest");

@@ -60,7 +60,8 @@ public:
 
     /// Clears the target's stencil to 0, counts the volumes of list.lights[light] in it and submits
     /// that; into a render pass of a Vulkan host's (vk::HostRenderPass) it is recorded, within
-    /// that. Depth is read and left alone, and so are colours.
+    /// that. Depth is read and left alone, and so are colours. ErrorCode::InvalidInput for a light
+    /// beyond the list, and where prepare() has not succeeded.
     [[nodiscard]] Status count(std::size_t light);
 
     /// Of the last prepare().

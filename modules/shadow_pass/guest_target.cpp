@@ -103,4 +103,23 @@ Status check_view(const GuestPassDesc& desc, const shadows::HostView& view,
                                              ": make another where they change.");
 }
 
+Status check_lights(std::optional<std::size_t> lights, std::size_t first, std::size_t count,
+                    const std::string& who, const std::string& done) {
+    const bool one = count == 1;
+    const std::string subject =
+        one ? "Light " + std::to_string(first)
+            : std::to_string(count) + " lights from " + std::to_string(first) + " on";
+    if (!lights) {
+        return fail(ErrorCode::InvalidInput,
+                    subject + " cannot " + done + ": no list is prepared for " + who +
+                        ", since prepare() was not called or failed. Call it first, and look at "
+                        "what it says.");
+    }
+    if (first <= *lights && count <= *lights - first) return {};
+    return fail(ErrorCode::InvalidInput,
+                subject + " cannot " + done + ": the list that was prepared last for " + who +
+                    " has " + std::to_string(*lights) + (*lights == 1 ? " light" : " lights") +
+                    ", which count from 0.");
+}
+
 }  // namespace gnomon::shadow_pass::internal

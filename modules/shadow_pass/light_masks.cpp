@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <gnomon/core/expects.hpp>
 #include <gnomon_shaders/shadow_pass.hpp>
 
 #include "internal/guest_target.hpp"
@@ -109,6 +108,7 @@ struct LightMasks::State {
     gpu::RenderPipeline pack;
 
     std::vector<shadows::LightDraws> lights;
+    bool prepared = false;  // `lights` are of the last prepare()
     // What resolve() submitted last, while the pass's revision stays.
     std::optional<gpu::CommandBuffer> recorded;
     std::uint64_t recorded_revision = 0;
@@ -252,13 +252,15 @@ LightMasks::~LightMasks() = default;
 
 Status LightMasks::prepare(const shadows::DrawList& list, const shadows::HostView& view) {
     State& s = *state_;
+    s.prepared = false;
+    s.lights.clear();
     const Status fits = internal::check_view(s.desc.host, view, "the light masks");
     if (!fits) return fits;
-    s.lights.clear();
     if (const Status prepared = s.pass.prepare(list, view.as_drawn, s.desc.host.size); !prepared) {
         return prepared;
     }
     s.lights = list.lights;
+    s.prepared = true;
     return {};
 }
 
@@ -266,7 +268,10 @@ Status LightMasks::resolve() { return resolve(0, state_->lights.size()); }
 
 Status LightMasks::resolve(std::size_t first, std::size_t count) {
     State& s = *state_;
-    GNOMON_EXPECTS(first <= s.lights.size() && count <= s.lights.size() - first);
+    const Status in_list =
+        internal::check_lights(s.prepared ? std::optional(s.lights.size()) : std::nullopt, first,
+                               count, "the light masks", "be resolved");
+    if (!in_list) return in_list;
     const std::size_t capacity = capacity_of(s.desc.masks, s.bits);
     if (count > capacity) {
         return refuse("There are " + std::to_string(count) + " lights, but " +

@@ -69,7 +69,8 @@ public:
     /// lights than max_lights, or than textures.
     [[nodiscard]] Status resolve();
     /// The same for lights first to first + count - 1 of the list, from bit or texture 0 on: for
-    /// more lights than masks hold, in rounds.
+    /// more lights than masks hold, in rounds. Both fail with ErrorCode::InvalidInput for lights
+    /// beyond the list, and where prepare() has not succeeded.
     [[nodiscard]] Status resolve(std::size_t first, std::size_t count);
 
     /// Of the last prepare().

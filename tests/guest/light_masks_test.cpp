@@ -320,6 +320,44 @@ TEST_P(LightMasksOnDevice, each_refusal_says_what_to_change) {
                           "of each, or name a texture of R8Unorm and one sample for each light"));
 }
 
+TEST_P(LightMasksOnDevice, lights_that_no_list_has_are_refused) {
+    const Drawn drawn = draw(device(), still_life(), 1);
+    ASSERT_EQ(drawn.list.lights.size(), 2U);
+    const gpu::Texture mask = mask_texture(device(), gpu::Format::R32Uint);
+    auto masks = must(LightMasks::create(device(), {.host = drawn.host(), .masks = {mask}}));
+    auto guest = must(shadow_pass::GuestPass::create(device(), drawn.host()));
+    const auto said = [](const Status& status) {
+        EXPECT_TRUE(status || status.error().code == ErrorCode::InvalidInput);
+        return status ? std::string("done") : status.error().message;
+    };
+    const auto expect_no_list = [&] {
+        EXPECT_EQ(said(masks.resolve(0, 1)),
+                  "Light 0 cannot be resolved: no list is prepared for the light masks, since "
+                  "prepare() was not called or failed. Call it first, and look at what it says.");
+        EXPECT_THAT(said(masks.resolve()), HasSubstr("no list is prepared for the light masks"));
+        EXPECT_THAT(said(guest.count(0)),
+                    HasSubstr("Light 0 cannot be counted: no list is prepared "
+                              "for the guest pass, since prepare()"));
+    };
+    expect_no_list();
+    must(masks.prepare(drawn.list, drawn.view()));
+    must(guest.prepare(drawn.list, drawn.view()));
+    EXPECT_EQ(said(guest.count(1)), "done");
+    EXPECT_EQ(said(guest.count(2)),
+              "Light 2 cannot be counted: the list that was prepared last for the guest pass has 2 "
+              "lights, which count from 0.");
+    EXPECT_EQ(said(masks.resolve(2, 0)), "done");
+    EXPECT_THAT(said(masks.resolve(1, 2)),
+                HasSubstr("2 lights from 1 on cannot be resolved: the list that was prepared "
+                          "last for the light masks has 2 lights"));
+    EXPECT_THAT(said(masks.resolve(3, static_cast<std::size_t>(-1))), HasSubstr("from 3 on"));
+    shadows::HostView wrong = drawn.view();
+    wrong.conventions.reversed = false;
+    EXPECT_FALSE(masks.prepare(drawn.list, wrong));
+    EXPECT_FALSE(guest.prepare(drawn.list, wrong));
+    expect_no_list();
+}
+
 INSTANTIATE_TEST_SUITE_P(Devices, LightMasksOnDevice, testing::ValuesIn(drawing_devices()),
                          device_case_name);
 

@@ -4,6 +4,8 @@
 // counts: the one place where guests refuse.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,12 @@ namespace gnomon::shadow_pass::internal {
 /// That a frame's view is by the conventions that its pass was made for.
 [[nodiscard]] Status check_view(const GuestPassDesc& desc, const shadows::HostView& view,
                                 const std::string& who);
+
+/// That lights `first` to `first + count - 1` are of the list that was prepared last: `lights`,
+/// nothing where prepare() was not called or failed. `done`: "be counted".
+[[nodiscard]] Status check_lights(std::optional<std::size_t> lights, std::size_t first,
+                                  std::size_t count, const std::string& who,
+                                  const std::string& done);
 
 /// "320 x 240 pixels", "4 samples".
 [[nodiscard]] std::string size_words(TargetSize size);
