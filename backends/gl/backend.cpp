@@ -109,6 +109,9 @@ public:
                    ? gpu::ClipDepth::MinusOneToOne
                    : gpu::ClipDepth::ZeroToOne;
     }
+    [[nodiscard]] Status takes_colors_beside(gpu::TextureId id) const override {
+        return gnomon::gl::takes_colors_beside(objects_.textures[id]);
+    }
     Status create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& desc) override {
         return create(objects_.samplers, id, [&] { return make_sampler(adapter_, desc); });
     }

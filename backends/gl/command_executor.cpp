@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "internal/debug_output.hpp"
+#include "internal/host_target.hpp"
 #include "internal/textures.hpp"
 
 namespace gnomon::gl {
@@ -89,19 +90,16 @@ Status CommandExecutor::bind_host(const gpu::RenderPassDesc& pass, FramebufferKe
     const HostFramebuffer& host = *texture.host;
     if (key.colors.empty()) {
         gl_.BindFramebuffer(GL_FRAMEBUFFER, host.name);
-    } else if (host.attached) {
+    } else {
+        if (const Status takes = takes_colors_beside(texture); !takes) return takes;
+        if (!host.owned) {
+            const Status same = check_still_attached(gl_, texture);
+            if (!same) return same;
+        }
         key.host = *host.attached;
         const Status bound = framebuffers_.bind(gl_, key, texture.target, texture.format,
                                                 fmt::format("[RenderPass \"{}\"]", pass.label));
         if (!bound) return bound;
-    } else {
-        return fail(
-            ErrorCode::Unsupported,
-            fmt::format("[RenderPass \"{}\"] has colour attachments beside [Texture "
-                        "\"{}\"], the depth and stencil of a framebuffer that has them in "
-                        "no 2D texture or renderbuffer of the host's, such as the window's: "
-                        "draw the scene into a framebuffer that has.",
-                        pass.label, texture.label));
     }
     gl_.ClipControl(host.upper_left ? GL_UPPER_LEFT : GL_LOWER_LEFT, host.clip_depth);
     gl_.ProvokingVertex(host_provoking_vertex_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "internal/host_target.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "internal/conv.hpp"
@@ -67,39 +69,45 @@ GLint ask_attachment(const GlFunctions& gl, GLenum attachment, GLenum what) {
     return value;
 }
 
+// Of the framebuffer that is bound; nothing where there is none.
+std::optional<HostDepthStencil> attached_at(const GlFunctions& gl, GLenum attachment) {
+    const GLint type = ask_attachment(gl, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE);
+    if (type != GL_RENDERBUFFER && type != GL_TEXTURE) return std::nullopt;
+    const auto name =
+        static_cast<GLuint>(ask_attachment(gl, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
+    if (type == GL_RENDERBUFFER) return HostDepthStencil{.renderbuffer = name};
+    return HostDepthStencil{
+        .texture = name,
+        .level = ask_attachment(gl, attachment, GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL)};
+}
+
+bool has_fixed_samples(const GlFunctions& gl, GLenum target, GLint level) {
+    if (target != GL_TEXTURE_2D_MULTISAMPLE) return true;
+    GLint fixed = GL_TRUE;
+    gl.GetTexLevelParameteriv(target, level, GL_TEXTURE_FIXED_SAMPLE_LOCATIONS, &fixed);
+    return fixed != GL_FALSE;
+}
+
 // What a framebuffer object has for depth and its size; the former is bound afterwards. Left alone
 // where it cannot be asked by these targets.
 void look_at(const GlFunctions& gl, GLenum target, Size& size, HostFramebuffer& host) {
-    const GLint type =
-        ask_attachment(gl, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE);
-    const GLint object =
-        ask_attachment(gl, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME);
-    const auto name = static_cast<GLuint>(object);
-    HostDepthStencil attached;
+    const auto depth = attached_at(gl, GL_DEPTH_ATTACHMENT);
+    if (!depth) return;
     Size measured;
-    if (type == GL_RENDERBUFFER) {
-        attached.renderbuffer = name;
-        gl.BindRenderbuffer(GL_RENDERBUFFER, name);
+    if (depth->renderbuffer != 0) {
+        gl.BindRenderbuffer(GL_RENDERBUFFER, depth->renderbuffer);
         gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_WIDTH, &measured.width);
         gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_HEIGHT, &measured.height);
-    } else if (type == GL_TEXTURE) {
-        attached.texture = name;
-        attached.level =
-            ask_attachment(gl, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL);
-        drop_errors(gl);
-        gl.BindTexture(target, name);
-        if (gl.GetError() != GL_NO_ERROR) return;  // of another target
-        gl.GetTexLevelParameteriv(target, attached.level, GL_TEXTURE_WIDTH, &measured.width);
-        gl.GetTexLevelParameteriv(target, attached.level, GL_TEXTURE_HEIGHT, &measured.height);
     } else {
-        return;
+        drop_errors(gl);
+        gl.BindTexture(target, depth->texture);
+        if (gl.GetError() != GL_NO_ERROR) return;  // of another target
+        gl.GetTexLevelParameteriv(target, depth->level, GL_TEXTURE_WIDTH, &measured.width);
+        gl.GetTexLevelParameteriv(target, depth->level, GL_TEXTURE_HEIGHT, &measured.height);
+        host.fixed_samples = has_fixed_samples(gl, target, depth->level);
     }
     size = measured;
-    if (ask_attachment(gl, GL_STENCIL_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == type &&
-        ask_attachment(gl, GL_STENCIL_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME) ==
-            object) {
-        host.attached = attached;
-    }
+    if (attached_at(gl, GL_STENCIL_ATTACHMENT) == depth) host.attached = depth;
 }
 
 // What glClipControl() was told, where the host does not say.
@@ -212,6 +220,9 @@ Result<TextureObject> import_depth_stencil(const GlFunctions& gl, const gpu::Tex
     if (usable) usable = check_framebuffer(gl, desc, host, is_window);
     if (usable && is_framebuffer && !is_window) look_at(gl, texture.target, size, *texture.host);
     if (usable) usable = check_size(desc, host, size);
+    if (usable && host.kind == HostTarget::Kind::Texture) {
+        texture.host->fixed_samples = has_fixed_samples(gl, texture.target, 0);
+    }
     if (!usable) {
         if (texture.host->owned) gl.DeleteFramebuffers(1, &texture.host->name);
         return forward_error(usable);
@@ -254,6 +265,12 @@ Result<TextureObject> import_color(const GlFunctions& gl, const gpu::TextureDesc
     if (const Status fits = check_samples(desc, host, level(GL_TEXTURE_SAMPLES)); !fits) {
         return forward_error(fits);
     }
+    if (!has_fixed_samples(gl, texture.target, 0)) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("{} has its samples anywhere, not where the depth beside it has "
+                                "them: make it with fixedsamplelocations GL_TRUE.",
+                                name_of(desc, host)));
+    }
     return texture;
 }
 
@@ -280,6 +297,40 @@ Result<TextureObject> import_host_target(const Adapter& adapter, const gpu::Text
     drop_errors(adapter.gl);  // of the host's
     return is_color ? import_color(adapter.gl, desc, host)
                     : import_depth_stencil(adapter.gl, desc, host);
+}
+
+Status takes_colors_beside(const TextureObject& texture) {
+    if (!texture.host) return {};
+    if (!texture.host->attached) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("[Texture \"{}\"] takes no colours beside it, such as light masks: "
+                                "it is the depth and stencil of a framebuffer that has them in no "
+                                "one 2D texture or renderbuffer of the host's, such as the "
+                                "window's: draw the scene into a framebuffer that has.",
+                                texture.label));
+    }
+    if (!texture.host->fixed_samples) {
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("[Texture \"{}\"] takes no colours beside it, such as light masks: "
+                                "the host's depth has its samples anywhere, while those of masks "
+                                "have fixed places: make it with fixedsamplelocations GL_TRUE.",
+                                texture.label));
+    }
+    return {};
+}
+
+Status check_still_attached(const GlFunctions& gl, const TextureObject& texture) {
+    gl.BindFramebuffer(GL_FRAMEBUFFER, texture.host->name);
+    const auto& then = texture.host->attached;
+    if (attached_at(gl, GL_DEPTH_ATTACHMENT) == then &&
+        attached_at(gl, GL_STENCIL_ATTACHMENT) == then) {
+        return {};
+    }
+    return fail(ErrorCode::InvalidInput,
+                fmt::format("[Texture \"{}\"], the host's framebuffer {}, has another depth or "
+                            "stencil than when it was imported: import it again after they are "
+                            "attached, and make the light masks again.",
+                            texture.label, texture.host->name));
 }
 
 }  // namespace gnomon::gl

@@ -15,12 +15,17 @@ namespace gnomon::gl {
 /// RenderAttachment alone. For depth and stencil the format is Depth24UnormStencil8 with depth in
 /// normalised integers of any width, Depth32FloatStencil8 with floats. The size is not checked of
 /// the window's framebuffer, nor of a framebuffer with a texture other than the two below for
-/// depth; with these, light masks cannot be resolved. A colour format names a Texture of just that
-/// internal format, with row 0 where the framebuffer has it that the scene is drawn into.
+/// depth; with these, and where depth and stencil are not one object or have four samples at
+/// places that are not fixed (fixedsamplelocations GL_FALSE), there are no light masks. A colour
+/// format names a Texture of just that internal format, with row 0 where the framebuffer has it
+/// that the scene is drawn into.
 struct HostTarget {
     /// What the name names.
     enum class Kind : std::uint8_t {
-        Framebuffer,   ///< with any colour attachments, which are left alone; 0 is the window's
+        /// With any colour attachments, which are left alone; 0 is the window's. Light masks go
+        /// beside the depth and stencil that it has when it is imported: they refuse it when it has
+        /// others, until it is imported again.
+        Framebuffer,
         Texture,       ///< GL_TEXTURE_2D, or GL_TEXTURE_2D_MULTISAMPLE with several samples
         Renderbuffer,  ///< of glGenRenderbuffers
     };

@@ -43,6 +43,9 @@ public:
     }
     /// In which clip space what is drawn into the texture lies.
     [[nodiscard]] virtual ClipDepth clip_depth(TextureId) const { return ClipDepth::ZeroToOne; }
+    /// Whether a pass with this depth-stencil can have colour attachments; Unsupported otherwise,
+    /// with the reason. Only a texture of a host's may not.
+    [[nodiscard]] virtual Status takes_colors_beside(TextureId) const { return {}; }
     /// Filters and address modes of textures.
     virtual Status create_sampler(SamplerId, const SamplerDesc&) = 0;
     /// Both languages are there; a backend takes the one it reads.

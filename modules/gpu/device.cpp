@@ -172,6 +172,11 @@ ClipDepth Device::clip_depth_of(TextureId texture) const {
     return state_->backend().clip_depth(texture);
 }
 
+Status Device::takes_colors_beside(TextureId depth_stencil) const {
+    GNOMON_EXPECTS(state_->find(depth_stencil) != nullptr);
+    return state_->backend().takes_colors_beside(depth_stencil);
+}
+
 const Caps& Device::caps() const { return state_->caps(); }
 
 DeviceCounters Device::counters() const {

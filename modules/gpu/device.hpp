@@ -103,6 +103,10 @@ public:
     /// In which clip space what is drawn into a texture lies: ZeroToOne but where a host's was
     /// imported that is drawn to otherwise. The texture is alive.
     [[nodiscard]] ClipDepth clip_depth_of(TextureId texture) const;
+    /// Whether a render pass with this depth-stencil can have colour attachments as well:
+    /// ErrorCode::Unsupported and the reason where a host's was imported that cannot. The texture
+    /// is alive.
+    [[nodiscard]] Status takes_colors_beside(TextureId depth_stencil) const;
     /// What the adapter is and can do.
     [[nodiscard]] const Caps& caps() const;
     /// Totals so far.

@@ -30,6 +30,9 @@ public:
         return guard("import_texture", &Backend::import_texture, id, desc, native);
     }
     ClipDepth clip_depth(TextureId id) const override { return inner_->clip_depth(id); }
+    Status takes_colors_beside(TextureId id) const override {
+        return inner_->takes_colors_beside(id);
+    }
     Status create_sampler(SamplerId id, const SamplerDesc& desc) override {
         return guard("create_sampler", &Backend::create_sampler, id, desc);
     }

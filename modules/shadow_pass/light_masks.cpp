@@ -33,6 +33,10 @@ Status check_mask(const gpu::TextureDesc& mask, const GuestPassDesc& host) {
         return refuse("The light mask " + name_of(mask) + " has " + internal::size_words(size) +
                       ", but the depth " + internal::size_words(host.size) + ".");
     }
+    if (!gpu::has(mask.usage, gpu::TextureUsage::RenderAttachment)) {
+        return refuse("The light mask " + name_of(mask) +
+                      " cannot be drawn to: make it with TextureUsage::RenderAttachment.");
+    }
     if (mask.mip_level_count != 1) {
         return refuse("The light mask " + name_of(mask) + " has " +
                       std::to_string(mask.mip_level_count) + " mip levels instead of 1.");
@@ -223,6 +227,9 @@ Result<LightMasks> LightMasks::create(gpu::Device& device, const LightMasksDesc&
     bool bits = false;
     if (const Status checked = check_masks(device, desc, bits); !checked) {
         return forward_error(checked);
+    }
+    if (const Status beside = device.takes_colors_beside(desc.host.target); !beside) {
+        return forward_error(beside);
     }
     auto pass = ShadowPass::create(
         device, internal::shadow_pass_of(desc.host, {bits ? sum_format : gpu::Format::R8Unorm}));

@@ -52,9 +52,11 @@ public:
     /// In one resolve().
     static constexpr std::size_t max_lights = 32;
 
-    /// The device must outlive it. Fails as GuestPass::create() does, and with
-    /// ErrorCode::InvalidInput for masks that are not as LightMasksDesc::masks says. Makes a
-    /// texture of its own: four bytes a sample for bits, one a sample for shares.
+    /// The device must outlive it. Fails as GuestPass::create() does, with
+    /// ErrorCode::InvalidInput for masks that are not as LightMasksDesc::masks says, and with
+    /// Unsupported where no colours can be drawn beside the host's depth (LightMasksDesc::host), or
+    /// for bits of four samples without Features::sample_shading. Makes a texture of its own: four
+    /// bytes a sample for bits, one a sample for shares.
     [[nodiscard]] static Result<LightMasks> create(gpu::Device& device, const LightMasksDesc& desc);
     LightMasks(LightMasks&&) noexcept;
     LightMasks& operator=(LightMasks&&) noexcept;

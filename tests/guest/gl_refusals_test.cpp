@@ -185,17 +185,109 @@ TEST_F(GuestRefusals, depth_in_an_array_takes_no_mask) {
     desc.label = "mask";
     desc.format = gpu::Format::R32Uint;
     const auto mask = must(device_->create_texture(desc));
-    auto masks = must(shadow_pass::LightMasks::create(
-        *device_, {.host = {.target = layer, .size = {row_width, row_height}}, .masks = {mask}}));
+    const auto masks = shadow_pass::LightMasks::create(
+        *device_, {.host = {.target = layer, .size = {row_width, row_height}}, .masks = {mask}});
+    ASSERT_FALSE(masks);
+    EXPECT_EQ(masks.error().code, ErrorCode::Unsupported);
+    EXPECT_THAT(masks.error().message,
+                HasSubstr("[Texture \"layer\"] takes no colours beside it, such as light masks"));
+    EXPECT_THAT(masks.error().message,
+                HasSubstr("such as the window's: draw the scene into a framebuffer that has"));
+    EXPECT_EQ(gl.GetError(), GLenum{GL_NO_ERROR});
+}
+
+// A list of nothing, with a view for it.
+void prepare_nothing(shadow_pass::LightMasks& masks) {
     const shadows::DrawList nothing;
     const auto view = must(shadows::view_of_host(
         glm::dmat4(1.0), glm::dmat4{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, -1}, {0, 0, -0.2, 0}},
         {}));
     must(masks.prepare(nothing, view));
-    const Status resolved = masks.resolve();
-    ASSERT_FALSE(resolved);
-    EXPECT_THAT(resolved.error().message,
-                HasSubstr("such as the window's: draw the scene into a framebuffer that has"));
+}
+
+TEST_F(GuestRefusals, samples_at_no_fixed_places_take_no_mask) {
+    const HostGl& gl = host_->gl();
+    const auto samples_anywhere = [&](GLenum format) {
+        GLuint texture = 0;
+        gl.GenTextures(1, &texture);
+        gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture);
+        gl.TexStorage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, 4, format, row_width, row_height,
+                                   GL_FALSE);
+        return texture;
+    };
+    const GLuint depth = samples_anywhere(GL_DEPTH24_STENCIL8);
+    GLuint framebuffer = 0;
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE,
+                            depth, 0);
+    gpu::TextureDesc desc{.label = "anywhere",
+                          .width = row_width,
+                          .height = row_height,
+                          .format = gpu::Format::Depth24UnormStencil8,
+                          .usage = gpu::TextureUsage::RenderAttachment,
+                          .sample_count = 4};
+    gpu::TextureDesc mask_desc = desc;
+    mask_desc.label = "mask";
+    mask_desc.format = gpu::Format::R32Uint;
+    const auto mask = must(device_->create_texture(mask_desc));
+    for (const gl::HostTarget& target :
+         {gl::HostTarget{.name = framebuffer},
+          gl::HostTarget{.kind = gl::HostTarget::Kind::Texture, .name = depth}}) {
+        const auto imported = must(device_->import_texture(desc, target));
+        const shadow_pass::GuestPassDesc host{
+            .target = imported, .size = {row_width, row_height}, .sample_count = 4};
+        EXPECT_TRUE(shadow_pass::GuestPass::create(*device_, host));
+        const auto masks =
+            shadow_pass::LightMasks::create(*device_, {.host = host, .masks = {mask}});
+        ASSERT_FALSE(masks);
+        EXPECT_THAT(masks.error().message,
+                    HasSubstr("has its samples anywhere, while those of masks have fixed places: "
+                              "make it with fixedsamplelocations GL_TRUE"));
+    }
+    EXPECT_THAT(mask_refusal(GlHost::mask_target(samples_anywhere(GL_R32UI)),
+                             {.format = gpu::Format::R32Uint, .sample_count = 4}),
+                HasSubstr("make it with fixedsamplelocations GL_TRUE"));
+    EXPECT_EQ(gl.GetError(), GLenum{GL_NO_ERROR});
+}
+
+TEST_F(GuestRefusals, masks_lie_beside_the_depth_that_was_imported) {
+    const HostGl& gl = host_->gl();
+    const GLuint framebuffer = framebuffer_with(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT);
+    gpu::TextureDesc desc{.label = "depth",
+                          .width = row_width,
+                          .height = row_height,
+                          .format = gpu::Format::Depth24UnormStencil8,
+                          .usage = gpu::TextureUsage::RenderAttachment};
+    const auto depth = must(device_->import_texture(desc, gl::HostTarget{.name = framebuffer}));
+    desc.label = "mask";
+    desc.format = gpu::Format::R32Uint;
+    const auto mask = must(device_->create_texture(desc));
+    auto masks = must(shadow_pass::LightMasks::create(
+        *device_, {.host = {.target = depth, .size = {row_width, row_height}}, .masks = {mask}}));
+    prepare_nothing(masks);
+    must(masks.resolve());
+    const auto attach = [&](GLenum attachment, GLuint renderbuffer) {
+        gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, renderbuffer);
+    };
+    GLint before = 0;
+    gl.GetIntegerv(GL_RENDERBUFFER_BINDING, &before);
+    GLuint other = 0;
+    gl.GenRenderbuffers(1, &other);
+    gl.BindRenderbuffer(GL_RENDERBUFFER, other);
+    gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, row_width, row_height);
+    attach(GL_DEPTH_STENCIL_ATTACHMENT, other);
+    const Status refused = masks.resolve();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
+    EXPECT_THAT(refused.error().message,
+                HasSubstr("has another depth or stencil than when it was imported: import it again "
+                          "after they are attached"));
+    attach(GL_DEPTH_STENCIL_ATTACHMENT, static_cast<GLuint>(before));
+    must(masks.resolve());
+    attach(GL_STENCIL_ATTACHMENT, 0);
+    EXPECT_FALSE(masks.resolve());
     EXPECT_EQ(gl.GetError(), GLenum{GL_NO_ERROR});
 }
 

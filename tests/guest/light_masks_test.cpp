@@ -305,6 +305,15 @@ TEST_P(LightMasksOnDevice, each_refusal_says_what_to_change) {
     must(few.prepare(drawn.list, drawn.view()));
     EXPECT_THAT(few.resolve().error().message,
                 HasSubstr("There are 2 lights, but textures for the masks of 1"));
+    const gpu::Texture only_read =
+        must(device().create_texture({.label = "only read",
+                                      .width = width,
+                                      .height = height,
+                                      .format = gpu::Format::R32Uint,
+                                      .usage = gpu::TextureUsage::TextureBinding}));
+    EXPECT_THAT(answer({only_read}, host),
+                HasSubstr("[Texture \"only read\"] cannot be drawn to: make it with "
+                          "TextureUsage::RenderAttachment"));
     shadows::HostView view = drawn.view();
     view.conventions.reversed = false;
     EXPECT_THAT(few.prepare(drawn.list, view).error().message,

@@ -14,4 +14,11 @@ namespace gnomon::gl {
                                                        const gpu::TextureDesc& desc,
                                                        const HostTarget& host);
 
+/// gpu::Backend::takes_colors_beside().
+[[nodiscard]] Status takes_colors_beside(const TextureObject& texture);
+
+/// That a framebuffer of the host's still has for depth and stencil what it had when it was
+/// imported, which is what is attached to framebuffers of ours. It is bound afterwards.
+[[nodiscard]] Status check_still_attached(const GlFunctions& gl, const TextureObject& texture);
+
 }  // namespace gnomon::gl

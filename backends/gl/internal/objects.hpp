@@ -67,6 +67,8 @@ struct HostFramebuffer {
     bool owned = false;  ///< made here, about a texture or renderbuffer of the host's
     /// What it has there; not known of the window's framebuffer, of arrays and of cubes.
     std::optional<HostDepthStencil> attached = std::nullopt;
+    /// Its samples are where those of our own textures are (fixedsamplelocations).
+    bool fixed_samples = true;
     bool upper_left = false;
     GLenum clip_depth = GL_NEGATIVE_ONE_TO_ONE;
 };
