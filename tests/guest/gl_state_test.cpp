@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <map>
 #include <string>
@@ -23,8 +24,9 @@ namespace {
 
 using Snapshot = std::map<std::string, std::vector<double>>;
 
-template <class Function>
-Function load(const GlHost& host, const char* name) {
+// `host`: anything that finds functions.
+template <class Function, class Host>
+Function load(const Host& host, const char* name) {
     return reinterpret_cast<Function>(host.find(name));
 }
 #define LOAD(host, name) load<decltype(&::name)>(host, #name)
@@ -132,7 +134,8 @@ constexpr Switch switches[] = {
     S1(GL_TEXTURE_CUBE_MAP_SEAMLESS),
 };
 
-Snapshot snapshot(const GlHost& host) {
+template <class Host>
+Snapshot snapshot(const Host& host) {
     Snapshot all;
     const auto get_double = LOAD(host, glGetDoublev);
     const auto get_double_i = LOAD(host, glGetDoublei_v);
@@ -297,6 +300,7 @@ struct StateCase {
     Result<std::unique_ptr<gl::Context>> (*create)();
     gl::StencilPath path;
     std::string silhouette;
+    std::uint32_t samples = 1;
 };
 
 void PrintTo(const StateCase& c, std::ostream* out) { *out << c.name; }
@@ -306,10 +310,14 @@ class GuestState : public testing::TestWithParam<StateCase> {};
 TEST_P(GuestState, everything_is_as_it_was_after_every_call) {
     auto context = GetParam().create();
     if (!context) GTEST_SKIP() << context.error().message;
-    GlHost host(std::move(*context), {.name = "host", .zero_to_one = true, .upper_left = true});
+    const std::uint32_t samples = GetParam().samples;
+    GlHost host(std::move(*context),
+                {.name = "host", .zero_to_one = true, .upper_left = true, .samples = samples});
     const Setting setting = rows().front().make();
     host.draw(setting);
-    const GLuint mask_name = host.make_mask(GL_R32UI);
+    const GLuint mask_name = host.make_mask(GL_R32UI, samples);
+    std::vector<GLuint> share_names;
+    for (int i = 0; i < 3; ++i) share_names.push_back(host.make_mask(GL_R8));
     make_strange(host);
     const Snapshot before = snapshot(host);
     EXPECT_EQ(before.at("GL_PROVOKING_VERTEX")[0], 1.0 * GL_LAST_VERTEX_CONVENTION);
@@ -326,7 +334,8 @@ TEST_P(GuestState, everything_is_as_it_was_after_every_call) {
                                                   .width = row_width,
                                                   .height = row_height,
                                                   .format = gpu::Format::Depth24UnormStencil8,
-                                                  .usage = gpu::TextureUsage::RenderAttachment},
+                                                  .usage = gpu::TextureUsage::RenderAttachment,
+                                                  .sample_count = samples},
                                                  host.target()));
         expect_unchanged("the target was imported");
         {
@@ -343,10 +352,11 @@ TEST_P(GuestState, everything_is_as_it_was_after_every_call) {
             static_cast<void>(must(device.read_texture(texture)));
             expect_unchanged("a texture was read");
         }
-        auto guest =
-            must(shadow_pass::GuestPass::create(device, {.target = target,
-                                                         .size = {row_width, row_height},
-                                                         .conventions = host.conventions()}));
+        const shadow_pass::GuestPassDesc desc{.target = target,
+                                              .size = {row_width, row_height},
+                                              .sample_count = samples,
+                                              .conventions = host.conventions()};
+        auto guest = must(shadow_pass::GuestPass::create(device, desc));
         expect_unchanged("the pass was made");
         auto system = must(shadows::ShadowSystem::create({.silhouette = GetParam().silhouette}));
         const GlHost::Camera camera = host.camera_of(setting);
@@ -363,20 +373,27 @@ TEST_P(GuestState, everything_is_as_it_was_after_every_call) {
             must(guest.count(light));
             expect_unchanged("a light was counted");
         }
-        {
-            const auto mask =
-                must(device.import_texture({.label = "mask",
-                                            .width = row_width,
-                                            .height = row_height,
-                                            .format = gpu::Format::R32Uint,
-                                            .usage = gpu::TextureUsage::RenderAttachment},
-                                           GlHost::mask_target(mask_name)));
+        const auto import = [&](GLuint name, gpu::Format format, std::uint32_t mask_samples) {
+            auto mask = must(device.import_texture({.label = "mask",
+                                                    .width = row_width,
+                                                    .height = row_height,
+                                                    .format = format,
+                                                    .usage = gpu::TextureUsage::RenderAttachment,
+                                                    .sample_count = mask_samples},
+                                                   GlHost::mask_target(name)));
             expect_unchanged("a mask was imported");
-            auto masks = must(shadow_pass::LightMasks::create(
-                device, {.host = {.target = target,
-                                  .size = {row_width, row_height},
-                                  .conventions = host.conventions()},
-                         .masks = {mask}}));
+            return mask;
+        };
+        std::vector<gpu::Texture> shares;
+        for (const GLuint name : share_names) {
+            shares.push_back(import(name, gpu::Format::R8Unorm, 1));
+        }
+        const auto bits = import(mask_name, gpu::Format::R32Uint, samples);
+        for (const std::vector<gpu::TextureId>& ids :
+             {std::vector<gpu::TextureId>{bits},
+              std::vector<gpu::TextureId>(shares.begin(), shares.end())}) {
+            auto masks =
+                must(shadow_pass::LightMasks::create(device, {.host = desc, .masks = ids}));
             expect_unchanged("light masks were made");
             must(masks.prepare(list, view));
             must(masks.resolve());
@@ -389,27 +406,101 @@ TEST_P(GuestState, everything_is_as_it_was_after_every_call) {
     expect_unchanged("the device was freed");
 }
 
-INSTANTIATE_TEST_SUITE_P(Contexts, GuestState,
-                         testing::Values(StateCase{"osmesa", gl::create_osmesa_context,
-                                                   gl::StencilPath::Separate, "auto"},
-                                         StateCase{"two_side", gl::create_osmesa_context,
-                                                   gl::StencilPath::TwoSide, "auto"},
-                                         StateCase{"egl_quads", gl::create_egl_context,
-                                                   gl::StencilPath::Separate, "gpu_quads"}),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Contexts, GuestState,
+    testing::Values(
+        StateCase{"osmesa", gl::create_osmesa_context, gl::StencilPath::Separate, "auto"},
+        StateCase{"two_side", gl::create_osmesa_context, gl::StencilPath::TwoSide, "auto"},
+        StateCase{"four_samples", gl::create_osmesa_context, gl::StencilPath::Separate, "auto", 4},
+        StateCase{"egl_quads", gl::create_egl_context, gl::StencilPath::Separate, "gpu_quads"}),
+    [](const auto& info) { return info.param.name; });
+
+// Finds functions, as GlHost does, of a context in which nothing was done.
+struct Untouched {
+    gl::Context& context;
+    [[nodiscard]] void* find(const char* name) const { return context.get_proc_address(name); }
+};
+
+// What HostState::Defaults says is OpenGL's default afterwards.
+bool is_left_as_default(const std::string& name) {
+    for (const Switch& s : switches) {
+        if (name == s.name) return true;
+    }
+    for (const char* listed :
+         {"GL_DEPTH_WRITEMASK", "GL_STENCIL_WRITEMASK", "GL_STENCIL_BACK_WRITEMASK",
+          "GL_DRAW_FRAMEBUFFER_BINDING", "GL_READ_FRAMEBUFFER_BINDING", "GL_CURRENT_PROGRAM",
+          "GL_VERTEX_ARRAY_BINDING", "GL_CULL_FACE_MODE", "GL_FRONT_FACE", "GL_PROVOKING_VERTEX",
+          "GL_CLIP_ORIGIN", "GL_CLIP_DEPTH_MODE"}) {
+        if (name == listed) return true;
+    }
+    const std::string depth_range = std::to_string(GL_DEPTH_RANGE) + " ";
+    for (const std::string& begin : {std::string("GL_BLEND "), std::string("GL_SCISSOR_TEST "),
+                                     std::string("GL_COLOR_WRITEMASK "), depth_range}) {
+        if (name.starts_with(begin)) return true;
+    }
+    return false;
+}
+
+Snapshot listed_defaults(const Snapshot& all) {
+    Snapshot listed;
+    for (const auto& [name, value] : all) {
+        if (!is_left_as_default(name)) continue;
+        // All ones, of which only those of the stencil's bits count.
+        const bool of_stencil = name.starts_with("GL_STENCIL_") && name.ends_with("WRITEMASK");
+        listed[name] = of_stencil ? std::vector{std::fmod(value[0], 256.0)} : value;
+    }
+    return listed;
+}
 
 // A host that asks for it has GL's defaults instead.
 TEST(GuestDefaults, defaults_are_left_where_they_are_asked_for) {
-    auto context = gl::create_osmesa_context();
-    if (!context) GTEST_SKIP() << context.error().message;
-    GlHost host(std::move(*context), {.name = "host"});
+    auto untouched = gl::create_osmesa_context();
+    if (!untouched) GTEST_SKIP() << untouched.error().message;
+    must((*untouched)->make_current());
+    const Snapshot defaults = listed_defaults(snapshot(Untouched{**untouched}));
+    EXPECT_GE(defaults.size(), std::size(switches) + 12U + 4U * 8U);
+    GlHost host(must(gl::create_osmesa_context()), {.name = "host", .upper_left = true});
+    const Setting setting = rows().front().make();
+    const GLuint mask_name = host.make_mask(GL_R32UI);
+    host.draw(setting);
     gpu::Device device(must(gl::create_backend(must(gl::adopt_current_context(
         [&](const char* n) { return host.find(n); }, gl::HostState::Defaults)))));
-    host.draw(rows().front().make());
-    EXPECT_NE(snapshot(host).at("GL_CURRENT_PROGRAM")[0], 0.0);
-    auto encoder = device.create_command_encoder("nothing");
-    must(device.submit(must(encoder.finish())));
-    EXPECT_EQ(snapshot(host).at("GL_CURRENT_PROGRAM")[0], 0.0);
+    gpu::TextureDesc desc{.label = "host",
+                          .width = row_width,
+                          .height = row_height,
+                          .format = gpu::Format::Depth24UnormStencil8,
+                          .usage = gpu::TextureUsage::RenderAttachment};
+    gl::HostTarget framebuffer = host.target();
+    framebuffer.clip_upper_left = true;
+    const auto target = must(device.import_texture(desc, framebuffer));
+    desc.format = gpu::Format::R32Uint;
+    const auto mask = must(device.import_texture(desc, GlHost::mask_target(mask_name)));
+    const shadow_pass::GuestPassDesc guest_desc{
+        .target = target, .size = {row_width, row_height}, .conventions = host.conventions()};
+    auto guest = must(shadow_pass::GuestPass::create(device, guest_desc));
+    auto masks =
+        must(shadow_pass::LightMasks::create(device, {.host = guest_desc, .masks = {mask}}));
+    auto system = must(shadows::ShadowSystem::create());
+    const GlHost::Camera camera = host.camera_of(setting);
+    const auto view = must(
+        shadows::view_of_host(camera.view_from_world, camera.clip_from_view, host.conventions()));
+    auto frame = system.begin_frame();
+    scene::ShadowAdapter adapter;
+    must(adapter.submit(setting.scene, frame));
+    const shadows::DrawList& list = std::move(frame).finish(view.view);
+    must(guest.prepare(list, view));
+    must(masks.prepare(list, view));
+    const auto expect_defaults = [&](const char* after_what, const auto& call) {
+        host.draw(setting);
+        EXPECT_NE(differences(defaults, listed_defaults(snapshot(host))), "")
+            << "before " << after_what;
+        must(call());
+        EXPECT_EQ(differences(defaults, listed_defaults(snapshot(host))), "")
+            << "after " << after_what;
+    };
+    expect_defaults("a light was counted", [&] { return guest.count(0); });
+    expect_defaults("light masks were resolved", [&] { return masks.resolve(); });
+    EXPECT_THAT(host.read_bits(mask_name), testing::Contains(testing::Ne(0U)));
 }
 
 // Nor is an error of the host's gnomon's there, where errors are not asked for at each call.
