@@ -160,8 +160,8 @@ gpu::Features find_features(const Instance& instance, const Adapter& adapter,
         limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts &
         limits.framebufferStencilSampleCounts & limits.sampledImageColorSampleCounts &
         limits.sampledImageDepthSampleCounts & limits.sampledImageStencilSampleCounts;
-    f.multisample_4 =
-        (counts & VK_SAMPLE_COUNT_4_BIT) != 0 && adapter.enabled.sampleRateShading == VK_TRUE;
+    f.multisample_4 = (counts & VK_SAMPLE_COUNT_4_BIT) != 0;
+    f.sample_shading = adapter.enabled.sampleRateShading == VK_TRUE;
     f.exact_clip_space = true;
     return f;
 }

@@ -3,6 +3,8 @@
 // The calls of gpu::Backend; objects are made and freed in backend_objects.cpp.
 #include <gnomon/vk/backend.hpp>
 
+#include <fmt/format.h>
+
 #include "internal/error.hpp"
 #include "internal/vulkan_backend.hpp"
 
@@ -64,20 +66,57 @@ Status VulkanBackend::initialise(const BackendOptions& options) {
     return {};
 }
 
+void VulkanBackend::look_at_host() {
+    if (host_commands_ == nullptr || host_commands_->command_buffer.times_set() == host_buffers_) {
+        return;
+    }
+    host_buffers_ = host_commands_->command_buffer.times_set();
+    host_buffer_ = host_commands_->command_buffer;
+    queue_.let_go();
+}
+
+template <class Object>
+Status VulkanBackend::check_write(const Object& object) {
+    look_at_host();
+    if (host_buffer_ == nullptr || object.read_by_host != host_buffers_) {
+        return {};
+    }
+    return fail(
+        ErrorCode::InvalidInput,
+        fmt::format("A write to {} would change what commands read that are in the host's "
+                    "command buffer already, since writes run before all of that: submit it "
+                    "first and set HostCommands::command_buffer to null or to another, or "
+                    "give each view in one command buffer a GuestPass or LightMasks of its "
+                    "own.",
+                    object.subject));
+}
+
 Status VulkanBackend::write_buffer(gpu::BufferId id, std::uint64_t offset,
                                    std::span<const std::byte> bytes) {
+    if (const Status possible = check_write(resources_.buffers[id]); !possible) {
+        return possible;
+    }
     return transfers_.write(resources_.buffers[id], offset, bytes);
 }
 
 Status VulkanBackend::write_texture(gpu::TextureId id, std::uint32_t mip_level,
                                     std::span<const std::byte> bytes) {
+    if (const Status possible = check_write(resources_.textures[id]); !possible) {
+        return possible;
+    }
     return transfers_.write(resources_.textures[id], mip_level, bytes);
 }
 
 Status VulkanBackend::submit(const gpu::CommandBuffer& commands) {
-    if (host_commands_ != nullptr && host_commands_->command_buffer != nullptr) {
-        CommandRecorder recorder{*device_, render_passes_, resources_, queue_,
-                                 static_cast<VkCommandBuffer>(host_commands_->command_buffer)};
+    look_at_host();
+    if (host_buffer_ != nullptr) {
+        queue_.hold();
+        CommandRecorder recorder{*device_,
+                                 render_passes_,
+                                 resources_,
+                                 queue_,
+                                 static_cast<VkCommandBuffer>(host_buffer_),
+                                 host_buffers_};
         const Status recorded = recorder.record(commands);
         // Uploads, and what cannot be recorded in a render pass, run before what the host submits.
         const Status uploaded = queue_.submit();
@@ -94,7 +133,10 @@ Status VulkanBackend::submit(const gpu::CommandBuffer& commands) {
     return queue_.submit();
 }
 
-Status VulkanBackend::wait_idle() { return queue_.finish(); }
+Status VulkanBackend::wait_idle() {
+    look_at_host();
+    return queue_.finish();
+}
 
 Status VulkanBackend::read_buffer(gpu::BufferId id, std::uint64_t offset,
                                   std::span<std::byte> bytes) {

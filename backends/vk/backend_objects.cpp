@@ -19,6 +19,23 @@ const gpu::BindGroupLayoutEntry& entry_of(const BindGroupLayout& layout, std::ui
         [binding](const gpu::BindGroupLayoutEntry& entry) { return entry.binding == binding; });
 }
 
+/// Whether it reads gl_SampleID: SPIR-V declares capabilities before all else.
+bool runs_once_a_sample(const gpu::ShaderSource& source) {
+    constexpr std::size_t header_words = 5;
+    constexpr std::uint32_t capability = 17;  // OpCapability
+    constexpr std::uint32_t sample_rate_shading = 35;
+    constexpr std::uint32_t capability_words = 2;
+    const std::span<const std::uint32_t> words = source.spirv;
+    for (std::size_t i = header_words;
+         i + 1 < words.size() && words[i] == (capability_words << 16U | capability);
+         i += capability_words) {
+        if (words[i + 1] == sample_rate_shading) {
+            return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 VulkanBackend::~VulkanBackend() {
@@ -70,10 +87,10 @@ Status VulkanBackend::import_texture(gpu::TextureId id, const gpu::TextureDesc& 
     if (!texture) {
         return forward_error(texture);
     }
-    resources_.textures.insert(id, std::move(*texture));
     if (pass != nullptr) {
-        host_passes_.push_back(id);
+        texture->host_pass_kind = host_passes_.add(*pass, desc.format, desc.sample_count);
     }
+    resources_.textures.insert(id, std::move(*texture));
     return {};
 }
 
@@ -87,6 +104,15 @@ Status VulkanBackend::create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& 
 }
 
 Status VulkanBackend::create_shader(gpu::ShaderId id, const gpu::ShaderDesc& desc) {
+    if (runs_once_a_sample(desc.source) && device_->adapter.enabled.sampleRateShading == VK_FALSE) {
+        return fail(
+            ErrorCode::Unsupported,
+            fmt::format("Shader '{}' runs once a sample, but {}.", desc.label,
+                        device_->is_adopted()
+                            ? "HostDevice::enabled_features lacks \"sampleRateShading\": make the "
+                              "device with that feature, and name it there"
+                            : "the adapter lacks sampleRateShading"));
+    }
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     info.codeSize = desc.source.spirv.size_bytes();
@@ -174,19 +200,11 @@ void VulkanBackend::write_descriptors(const BindGroup& group, const BindGroupLay
                                      writes.data(), 0, nullptr);
 }
 
-std::vector<HostPass> VulkanBackend::host_passes_for(const gpu::RenderPipelineDesc& desc) {
-    std::vector<HostPass> result;
+std::vector<HostPass> VulkanBackend::host_passes_for(const gpu::RenderPipelineDesc& desc) const {
     if (!desc.targets.empty() || !desc.depth_stencil) {
-        return result;
+        return {};
     }
-    for (const gpu::TextureId id : host_passes_) {
-        const Texture& texture = resources_.textures[id];
-        if (texture.format == desc.depth_stencil->format &&
-            texture.sample_count == desc.sample_count) {
-            result.push_back({id, &*texture.host_pass});
-        }
-    }
-    return result;
+    return host_passes_.of(desc.depth_stencil->format, desc.sample_count);
 }
 
 Status VulkanBackend::create_render_pipeline(gpu::RenderPipelineId id,
@@ -229,14 +247,16 @@ Status VulkanBackend::create_query_set(gpu::QuerySetId id, const gpu::QuerySetDe
 
 template <class Object>
 void VulkanBackend::destroy_later(Object object) {
+    look_at_host();
     queue_.defer([this, object = std::move(object)]() mutable { destroy_now(object); });
 }
 
 void VulkanBackend::destroy(gpu::BufferId id) { destroy_later(resources_.buffers.take(id)); }
 
 void VulkanBackend::destroy(gpu::TextureId id) {
+    look_at_host();
     Texture texture = resources_.textures.take(id);
-    std::erase(host_passes_, id);
+    host_passes_.remove(texture.host_pass_kind);
     render_passes_.forget(texture.attachment);
     destroy_later(std::move(texture));
 }

@@ -37,7 +37,7 @@ Status CommandRecorder::record(const gpu::CommandBuffer& source) {
 void CommandRecorder::visit(const gpu::cmd::SetPipeline& command) {
     const Pipeline& next = resources_.pipelines[command.pipeline];
     device_.fn.CmdBindPipeline(out_, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                               host_pass_ ? next.in_host_pass(host_pass_) : next.handle);
+                               host_pass_ != 0 ? next.in_host_pass(host_pass_) : next.handle);
     // Vulkan keeps bound sets only up to the first slot whose layout differs.
     std::size_t same = 0;
     if (pipeline_ != nullptr) {
@@ -146,6 +146,8 @@ void CommandRecorder::visit(const gpu::cmd::CopyBufferToBuffer& command) {
     }
     Buffer& source = resources_.buffers[command.source];
     Buffer& destination = resources_.buffers[command.destination];
+    note_read(source);
+    note_read(destination);
     define_contents(device_, out_, source);
     define_contents(device_, out_, destination);
     BarrierBatch barriers;

@@ -61,7 +61,7 @@ Status CommandRecorder::begin_pass(const gpu::RenderPassDesc& pass,
         return begin_in_host_pass(pass, pass.depth_stencil->texture, commands);
     }
 
-    host_pass_ = {};
+    host_pass_ = 0;
     BarrierBatch barriers;
     if (const Status prepared = prepare_reads(commands, barriers); !prepared) {
         return prepared;
@@ -147,20 +147,18 @@ Status CommandRecorder::check_in_host_pass(const gpu::RenderPassDesc& pass, gpu:
                                 subject));
     }
     if (!pass.color_attachments.empty()) {
-        return fail(ErrorCode::Unsupported,
-                    fmt::format("{} has colour attachments of its own: import the depth and "
-                                "stencil as a vk::HostImage, and draw outside of the host's.",
-                                subject));
+        return takes_colors_beside(resources_.textures[id]);
     }
     if (pass.occlusion_query_set || pass.timestamp_writes) {
         return fail(
             ErrorCode::Unsupported,
             fmt::format("{} has queries, which are reset outside of render passes.", subject));
     }
+    const HostPassKind kind = resources_.textures[id].host_pass_kind;
     for (const gpu::Command& command : commands) {
         const auto* set = std::get_if<gpu::cmd::SetPipeline>(&command);
         if (set != nullptr &&
-            resources_.pipelines[set->pipeline].in_host_pass(id) == VK_NULL_HANDLE) {
+            resources_.pipelines[set->pipeline].in_host_pass(kind) == VK_NULL_HANDLE) {
             return fail(ErrorCode::InvalidInput,
                         fmt::format("{} sets a pipeline that was made before that was imported: "
                                     "import it first.",
@@ -175,7 +173,7 @@ Status CommandRecorder::begin_in_host_pass(const gpu::RenderPassDesc& pass, gpu:
     if (const Status checked = check_in_host_pass(pass, id, commands); !checked) {
         return checked;
     }
-    host_pass_ = id;
+    host_pass_ = resources_.textures[id].host_pass_kind;
     BarrierBatch barriers;
     if (const Status prepared = prepare_reads(commands, barriers); !prepared) {
         return prepared;
@@ -215,7 +213,7 @@ void CommandRecorder::clear_in_host_pass(const gpu::DepthStencilAttachment& atta
 }
 
 void CommandRecorder::end_pass() {
-    if (host_pass_) {
+    if (host_pass_ != 0) {
         end_label();
         pass_ = nullptr;
         return;
@@ -250,7 +248,7 @@ void CommandRecorder::give_back(gpu::TextureId id, BarrierBatch& barriers) {
 }
 
 Result<VkCommandBuffer> CommandRecorder::before_pass() {
-    if (host_pass_) {
+    if (host_pass_ != 0) {
         return queue_.commands();
     }
     return out_;
@@ -273,6 +271,7 @@ Status CommandRecorder::prepare_reads(std::span<const gpu::Command> commands,
             define(buffer);
         }
         use_buffer(buffer, usage, barriers);
+        note_read(buffer);
     };
     const auto read_texture = [&](const BoundTexture& bound) {
         Texture& texture = resources_.textures[bound.texture];
@@ -282,6 +281,7 @@ Status CommandRecorder::prepare_reads(std::span<const gpu::Command> commands,
         use_texture(texture,
                     bound.in_vertex_shader ? Usage::SampledInVertex : Usage::SampledInFragment,
                     barriers);
+        note_read(texture);
     };
     for (const gpu::Command& command : commands) {
         if (const auto* set = std::get_if<gpu::cmd::SetBindGroup>(&command)) {

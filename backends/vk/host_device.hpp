@@ -27,22 +27,49 @@ struct HostDevice {
     std::uint32_t queue_family = 0;  ///< of `queue`
     /// What the device was made with of VkPhysicalDeviceFeatures, by its names; of use are
     /// "depthClamp" (needed for cameras with a far plane), "depthBounds", "depthBiasClamp",
-    /// "independentBlend", "occlusionQueryPrecise" and "sampleRateShading" (needed for four
-    /// samples); and "dynamicRendering", of Vulkan 1.3 or VK_KHR_dynamic_rendering, where a
+    /// "independentBlend", "occlusionQueryPrecise" and "sampleRateShading" (needed for light masks
+    /// with bits of four samples, which are packed sample by sample, and for nothing else); and
+    /// "dynamicRendering", of Vulkan 1.3 or VK_KHR_dynamic_rendering, where a
     /// HostRenderPass is begun by it.
     std::vector<std::string> enabled_features = {};
 };
 
+/// A VkCommandBuffer of the host's, or null: assign it. Counts how often that was done, since a
+/// handle comes again when something else is recorded.
+class HostCommandBuffer {
+public:
+    /// Null, or one that is being recorded.
+    HostCommandBuffer& operator=(void* handle) {
+        handle_ = handle;
+        ++times_set_;
+        return *this;
+    }
+    operator void*() const { return handle_; }                            ///< as Vulkan has it
+    [[nodiscard]] std::uint64_t times_set() const { return times_set_; }  ///< so far
+
+private:
+    void* handle_ = nullptr;
+    std::uint64_t times_set_ = 0;
+};
+
 /// Where what is submitted to an adopted device goes.
 struct HostCommands {
-    /// A VkCommandBuffer of the host's, being recorded: commands are recorded into it, and what is
-    /// bound there, dynamic state included, is anybody's guess afterwards. It is outside of a
-    /// render pass, since barriers are recorded as well; only what is drawn into a HostRenderPass
-    /// is recorded within that one. The host submits it to HostDevice::queue, once, before it calls
-    /// gnomon for the next frame or frees anything of gnomon's. Uploads are submitted by gnomon
-    /// before, and within a render pass the barriers that wait for them, too. Null: all is
-    /// submitted to the queue at once, in order.
-    void* command_buffer = nullptr;
+    /// One that is being recorded: commands are recorded into it, and what is bound there, dynamic
+    /// state included, is anybody's guess afterwards. It is outside of a render pass, since
+    /// barriers are recorded as well; only what is drawn into a HostRenderPass is recorded within
+    /// that one. The host submits it to HostDevice::queue, once, before it calls gnomon for the
+    /// next frame or frees anything of gnomon's. Uploads are submitted by gnomon before, and within
+    /// a render pass the barriers that wait for them, too. Null: all is submitted to the queue at
+    /// once, in order.
+    ///
+    /// After the last count() or resolve() that goes into it, it is set to null or to the next,
+    /// which says that no more does; until then what gnomon frees waits.
+    ///
+    /// Since uploads run before all of it, what a prepare() writes is the same for the whole
+    /// buffer: one pass (GuestPass, LightMasks) a view, or a submission between two views. A
+    /// prepare() that would change what the buffer reads already fails with
+    /// ErrorCode::InvalidInput; not if this was set since, which cannot be told from another frame.
+    HostCommandBuffer command_buffer = {};
 };
 
 /// What adopt_device() gives.
@@ -73,6 +100,10 @@ struct HostImage {
 /// then, as draws and a clear and nothing else. Pipelines are made for it with the GuestPass, so
 /// the import comes first. The TextureDesc has the size of the render area, which begins at (0, 0),
 /// the format and the samples of the depth-stencil attachment.
+///
+/// Pipelines are made once for all imports with equal render_pass, subpass, color_formats, format
+/// and samples, while one of them is alive. Handles are compared: free the texture before the
+/// VkRenderPass is destroyed.
 ///
 /// The pass has a stencil that may be written and one view (no multiview). Between the host's
 /// draws, the clear and the counting nothing has to be waited for: they are ordered by the pass.

@@ -177,7 +177,7 @@ Status PipelineMaker::check_supported(const gpu::RenderPipelineDesc& desc) const
 Status PipelineMaker::make_in_host_pass(VkGraphicsPipelineCreateInfo info,
                                         const gpu::RenderPipelineDesc& desc, const HostPass& host,
                                         Pipeline& pipeline) {
-    const HostRenderPass& pass = *host.pass;
+    const HostRenderPass& pass = host.pass;
     // None is written.
     const std::vector<VkPipelineColorBlendAttachmentState> targets(pass.color_formats.size());
     VkPipelineColorBlendStateCreateInfo blend = *info.pColorBlendState;
@@ -199,7 +199,7 @@ Status PipelineMaker::make_in_host_pass(VkGraphicsPipelineCreateInfo info,
     if (info.renderPass == VK_NULL_HANDLE) {
         info.pNext = &rendering;
     }
-    PipelineInHostPass made{host.id};
+    PipelineInHostPass made{host.kind};
     if (const VkResult result = device_.fn.CreateGraphicsPipelines(device_.handle, cache_, 1, &info,
                                                                    nullptr, &made.handle);
         result != VK_SUCCESS) {

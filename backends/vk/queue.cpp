@@ -119,8 +119,8 @@ Status Queue::submit(const SubmitSemaphores& semaphores) {
     if (const Status usable = check_not_lost(); !usable) {
         return usable;
     }
-    if (!recording_ && shared_ && !deferred_.empty()) {
-        // An empty submission, whose fence tells that the host's are done.
+    if (!recording_ && !deferred_.empty() && deferred_.back().serial > submitted_) {
+        // An empty submission, whose fence tells that the host's before it are done.
         if (const Result<VkCommandBuffer> begun = commands(); !begun) {
             return forward_error(begun);
         }
@@ -206,6 +206,10 @@ Status Queue::retire_finished() {
 }
 
 void Queue::defer(std::function<void()> destroy) {
+    if (holds_) {
+        held_.push_back(std::move(destroy));
+        return;
+    }
     const std::uint64_t serial = recording_ || shared_ ? recording_serial() : submitted_;
     if (serial <= completed_) {
         destroy();
@@ -214,7 +218,16 @@ void Queue::defer(std::function<void()> destroy) {
     }
 }
 
+void Queue::let_go() {
+    holds_ = false;
+    for (std::function<void()>& destroy : held_) {
+        defer(std::move(destroy));
+    }
+    held_.clear();
+}
+
 void Queue::drain() {
+    let_go();
     // A lost device is idle too. A host's other queues need not be, nor may we touch them.
     if (device_.is_adopted()) {
         device_.fn.QueueWaitIdle(device_.queue);

@@ -263,6 +263,17 @@ Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
     return texture;
 }
 
+Status takes_colors_beside(const Texture& texture) {
+    if (!texture.host_pass) {
+        return {};
+    }
+    return fail(ErrorCode::Unsupported,
+                fmt::format("The host's render pass of {} takes no colours of gnomon's beside it, "
+                            "such as light masks: import the depth and stencil as a vk::HostImage, "
+                            "and draw outside of the host's pass.",
+                            texture.subject));
+}
+
 void free_texture(Device& device, Memory& memory, Texture& texture) {
     for (VkImageView view : {texture.attachment, texture.sampled_color, texture.sampled_depth,
                              texture.sampled_stencil}) {

@@ -19,7 +19,8 @@ struct Features {
     bool occlusion_query = false;        ///< exact sample counts
     bool depth24unorm_stencil8 = false;  ///< Format::Depth24UnormStencil8
     bool depth32float_stencil8 = false;  ///< Format::Depth32FloatStencil8
-    bool multisample_4 = false;  ///< four samples, per-sample fetch of colour and stencil included
+    bool multisample_4 = false;   ///< four samples, per-sample fetch of colour and stencil included
+    bool sample_shading = false;  ///< a shader may run once a sample (gl_SampleID)
     bool sampled_stencil = false;  ///< a shader may read the stencil aspect
     bool exact_clip_space =
         false;  ///< z in 0..1 and row 0 on top without any flip: masks can be byte-equal

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 
 #include <dlfcn.h>
 
@@ -29,7 +30,73 @@ VkImageAspectFlags aspects_of(VkFormat format) {
                                   : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
+// What gnomon calls is counted: it asks the host for its functions.
+struct Counting {
+    PFN_vkGetInstanceProcAddr instance_proc_addr = nullptr;
+    PFN_vkGetDeviceProcAddr device_proc_addr = nullptr;
+    PFN_vkQueueSubmit submit = nullptr;
+    PFN_vkCreateGraphicsPipelines create_pipelines = nullptr;
+    std::size_t submissions = 0;
+    std::size_t pipelines = 0;
+};
+Counting counting;
+
+VKAPI_ATTR VkResult VKAPI_CALL counted_submit(VkQueue queue, std::uint32_t count,
+                                              const VkSubmitInfo* infos, VkFence fence) {
+    ++counting.submissions;
+    return counting.submit(queue, count, infos, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL counted_pipelines(VkDevice device, VkPipelineCache cache,
+                                                 std::uint32_t count,
+                                                 const VkGraphicsPipelineCreateInfo* infos,
+                                                 const VkAllocationCallbacks* allocator,
+                                                 VkPipeline* pipelines) {
+    counting.pipelines += count;
+    return counting.create_pipelines(device, cache, count, infos, allocator, pipelines);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL counting_device_proc_addr(VkDevice device,
+                                                                   const char* name) {
+    const PFN_vkVoidFunction found = counting.device_proc_addr(device, name);
+    const std::string_view wanted(name);
+    if (wanted == "vkQueueSubmit") {
+        counting.submit = reinterpret_cast<PFN_vkQueueSubmit>(found);
+        return reinterpret_cast<PFN_vkVoidFunction>(&counted_submit);
+    }
+    if (wanted == "vkCreateGraphicsPipelines") {
+        counting.create_pipelines = reinterpret_cast<PFN_vkCreateGraphicsPipelines>(found);
+        return reinterpret_cast<PFN_vkVoidFunction>(&counted_pipelines);
+    }
+    return found;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL counting_instance_proc_addr(VkInstance instance,
+                                                                     const char* name) {
+    const PFN_vkVoidFunction found = counting.instance_proc_addr(instance, name);
+    if (std::string_view(name) != "vkGetDeviceProcAddr") return found;
+    counting.device_proc_addr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(found);
+    return reinterpret_cast<PFN_vkVoidFunction>(&counting_device_proc_addr);
+}
+
+bool offers_validation_features(PFN_vkGetInstanceProcAddr find, const char* layer) {
+    const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceExtensionProperties>(
+        find(nullptr, "vkEnumerateInstanceExtensionProperties"));
+    std::uint32_t count = 0;
+    if (enumerate(layer, &count, nullptr) != VK_SUCCESS) return false;
+    std::vector<VkExtensionProperties> extensions(count);
+    enumerate(layer, &count, extensions.data());
+    for (const VkExtensionProperties& extension : extensions) {
+        if (std::string_view(extension.extensionName) == VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME)
+            return true;
+    }
+    return false;
+}
+
 }  // namespace
+
+std::size_t VkHost::submissions() { return counting.submissions; }
+std::size_t VkHost::pipelines() { return counting.pipelines; }
 
 void check_vk(VkResult result, const char* call) {
     if (result != VK_SUCCESS)
@@ -54,7 +121,7 @@ Result<std::unique_ptr<VkHost>> VkHost::create(const VkHostWay& way) {
 }
 
 VkHost::~VkHost() {
-    if (device_ != VK_NULL_HANDLE) QueueWaitIdle(queue_);
+    if (device_ != VK_NULL_HANDLE) wait();
     while (!frees_.empty()) {
         frees_.back()();
         frees_.pop_back();
@@ -72,13 +139,24 @@ Status VkHost::make_instance() {
     application.apiVersion =
         way_.in_pass == InPass::Dynamic ? VK_API_VERSION_1_3 : VK_API_VERSION_1_1;
     const char* layer = "VK_LAYER_KHRONOS_validation";
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    counting = {.instance_proc_addr = get_instance_proc_addr_};
+    std::vector<const char*> extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    // Also looks for accesses that wait for nothing.
+    const VkValidationFeatureEnableEXT synchronization =
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    auto validation = vk_info<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
+    validation.enabledValidationFeatureCount = 1;
+    validation.pEnabledValidationFeatures = &synchronization;
     auto info = vk_info<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
     info.pApplicationInfo = &application;
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &layer;
-    info.enabledExtensionCount = 1;
-    info.ppEnabledExtensionNames = &extension;
+    if (offers_validation_features(get_instance_proc_addr_, layer)) {
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+        info.pNext = &validation;
+    }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     if (create(&info, nullptr, &instance_) != VK_SUCCESS) {
         return fail(ErrorCode::Unsupported, "There is no Vulkan instance with a validation layer.");
     }
@@ -119,7 +197,7 @@ Status VkHost::choose_device() {
             properties.apiVersion >= version &&
             (depth.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0 &&
             features.depthClamp == VK_TRUE &&
-            (way_.samples == 1 || features.sampleRateShading == VK_TRUE);
+            (way_.samples == 1 || !way_.sample_shading || features.sampleRateShading == VK_TRUE);
         std::uint32_t families = 0;
         GetPhysicalDeviceQueueFamilyProperties(device, &families, nullptr);
         std::vector<VkQueueFamilyProperties> family(families);
@@ -143,7 +221,7 @@ void VkHost::make_device() {
     queue.pQueuePriorities = &priority;
     VkPhysicalDeviceFeatures features{};
     features.depthClamp = VK_TRUE;
-    features.sampleRateShading = way_.samples > 1 ? VK_TRUE : VK_FALSE;
+    features.sampleRateShading = way_.samples > 1 && way_.sample_shading ? VK_TRUE : VK_FALSE;
     auto of_1_3 = vk_info<VkPhysicalDeviceVulkan13Features>(
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
     of_1_3.dynamicRendering = VK_TRUE;
@@ -250,14 +328,16 @@ void VkHost::free_buffer(const Buffer& buffer) {
 
 vk::HostDevice VkHost::device() const {
     vk::HostDevice device{
-        .get_instance_proc_addr = reinterpret_cast<void*>(get_instance_proc_addr_),
+        .get_instance_proc_addr = reinterpret_cast<void*>(&counting_instance_proc_addr),
         .instance = instance_,
         .physical_device = physical_,
         .device = device_,
         .queue = queue_,
         .queue_family = family_,
         .enabled_features = {"depthClamp"}};
-    if (way_.samples > 1) device.enabled_features.emplace_back("sampleRateShading");
+    if (way_.samples > 1 && way_.sample_shading) {
+        device.enabled_features.emplace_back("sampleRateShading");
+    }
     if (way_.in_pass == InPass::Dynamic) device.enabled_features.emplace_back("dynamicRendering");
     return device;
 }
@@ -313,8 +393,18 @@ void VkHost::end() {
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands_;
     check_vk(QueueSubmit(queue_, 1, &info, VK_NULL_HANDLE), "submission");
+    submitted_.push_back(commands_);
+    if (waits) wait();
+}
+
+void VkHost::wait() {
     check_vk(QueueWaitIdle(queue_), "waiting");
-    FreeCommandBuffers(device_, pool_, 1, &commands_);
+    for (VkCommandBuffer commands : submitted_) {
+        FreeCommandBuffers(device_, pool_, 1, &commands);
+    }
+    submitted_.clear();
+    for (const Buffer& buffer : read_by_submitted_) free_buffer(buffer);
+    read_by_submitted_.clear();
 }
 
 }  // namespace gnomon::test

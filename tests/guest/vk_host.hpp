@@ -76,6 +76,7 @@ struct VkHostWay {
     /// With a colour attachment beside the depth then, and with Classic in a second subpass.
     InPass in_pass = InPass::No;
     std::uint32_t samples = 1;
+    bool sample_shading = true;  ///< with four samples: its device has sampleRateShading
 };
 
 class VkHost {
@@ -101,9 +102,12 @@ public:
     /// `in_pass` records follows in the pass.
     void draw(const Setting& setting,
               const std::function<void(VkCommandBuffer commands)>& in_pass = {});
-    /// Begins a command buffer, or ends it, submits it and waits.
+    /// Begins a command buffer, or ends it, submits it and, where it `waits`, does.
     VkCommandBuffer begin();
     void end();
+    /// Until the queue has done all.
+    void wait();
+    bool waits = true;
     /// One byte a pixel, row 0 on top.
     [[nodiscard]] std::vector<std::uint8_t> stencil();
     /// The same of one of four samples.
@@ -117,6 +121,10 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> read_bits(std::size_t number,
                                                        std::uint32_t sample = 0);
     [[nodiscard]] std::vector<std::uint8_t> read_bytes(std::size_t number);
+
+    /// How often gnomon has called these since the last host was made.
+    [[nodiscard]] static std::size_t submissions();
+    [[nodiscard]] static std::size_t pipelines();
 
     /// What the validation layer said.
     std::vector<std::string> messages;
@@ -188,6 +196,8 @@ private:
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    std::vector<VkCommandBuffer> submitted_;  // not waited for as yet
+    std::vector<Buffer> read_by_submitted_;
     Image depth_, color_;
     std::vector<Image> masks_;
     VkRenderPass render_pass_ = VK_NULL_HANDLE;

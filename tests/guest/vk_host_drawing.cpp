@@ -203,7 +203,7 @@ void VkHost::draw(const Setting& setting, const std::function<void(VkCommandBuff
     begin();
     begin_pass();
     CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
-    std::vector<Buffer> buffers;
+    std::vector<Buffer>& buffers = read_by_submitted_;
     setting.scene.registry.each<scene::Receiver, scene::MeshInstance, scene::WorldTransform>(
         [&](scene::Entity entity, const scene::Receiver&, const scene::MeshInstance& instance,
             const scene::WorldTransform& transform) {
@@ -231,7 +231,6 @@ void VkHost::draw(const Setting& setting, const std::function<void(VkCommandBuff
     if (in_pass) in_pass(commands_);
     end_pass();
     end();
-    for (const Buffer& buffer : buffers) free_buffer(buffer);
 }
 
 }  // namespace gnomon::test

@@ -143,6 +143,40 @@ TEST(InHostPassOfFourSamples, the_mask_is_the_truth) {
     EXPECT_THAT(host.messages, testing::IsEmpty());
 }
 
+// However many textures were imported for it, a kind of pass has its pipelines once.
+TEST(InHostPassPipelines, are_made_once_for_passes_that_are_alike) {
+    const VkHostWay way{.name = "host", .in_pass = InPass::Classic};
+    auto made = VkHost::create(way);
+    if (!made) GTEST_SKIP() << made.error().message;
+    VkHost& host = **made;
+    const std::string row = "eye_inside_a_volume";
+    GuestInPass guest = invite(host, way, row);
+    const auto made_for = [&](const shadow_pass::GuestPassDesc& desc) {
+        const std::size_t before = VkHost::pipelines();
+        const auto pass = must(shadow_pass::GuestPass::create(guest.device, desc));
+        return VkHost::pipelines() - before;
+    };
+    const std::size_t alone = made_for(guest.desc);
+    EXPECT_GT(alone, 0U);
+    std::vector<gpu::Texture> alike;
+    for (int i = 0; i < 3; ++i) {
+        alike.push_back(must(guest.device.import_texture(pass_desc(), host.render_pass())));
+    }
+    EXPECT_EQ(made_for(guest.desc), alone);
+    // They serve each of them, also after the first was let go.
+    shadow_pass::GuestPassDesc desc = guest.desc;
+    desc.target = alike.back();
+    auto pass = must(shadow_pass::GuestPass::create(guest.device, desc));
+    guest.target.reset();
+    alike.erase(alike.begin());
+    const shadows::DrawList list = list_of(row, {}, guest.view.view);
+    must(pass.prepare(list, guest.view));
+    host.draw(setting_of(row),
+              [&](VkCommandBuffer commands) { guest.in(commands, [&] { must(pass.count(0)); }); });
+    EXPECT_THAT(host.stencil(), testing::Contains(testing::Ne(0)));
+    EXPECT_THAT(host.messages, testing::IsEmpty());
+}
+
 TEST(InHostPassRefusals, what_cannot_work_is_refused) {
     const VkHostWay way{.name = "host", .in_pass = InPass::Classic};
     auto made = VkHost::create(way);
@@ -178,16 +212,13 @@ TEST(InHostPassRefusals, what_cannot_work_is_refused) {
     desc = pass_desc();
     desc.format = gpu::Format::R32Uint;
     const auto mask = must(guest.device.import_texture(desc, host.mask(image)));
-    auto masks =
-        must(shadow_pass::LightMasks::create(guest.device, {.host = guest.desc, .masks = {mask}}));
-    must(masks.prepare(list, guest.view));
-    host.draw(setting_of(row), [&](VkCommandBuffer commands) {
-        guest.in(commands, [&] {
-            EXPECT_THAT(masks.resolve().error().message,
-                        HasSubstr("has colour attachments of its own: import the depth and stencil "
-                                  "as a vk::HostImage"));
-        });
-    });
+    const auto masks =
+        shadow_pass::LightMasks::create(guest.device, {.host = guest.desc, .masks = {mask}});
+    ASSERT_FALSE(masks);
+    EXPECT_EQ(masks.error().code, ErrorCode::Unsupported);
+    EXPECT_THAT(masks.error().message,
+                HasSubstr("takes no colours of gnomon's beside it, such as light masks: import the "
+                          "depth and stencil as a vk::HostImage"));
 
     // A pipeline that knew nothing of the pass.
     const auto vertex =

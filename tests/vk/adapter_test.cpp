@@ -92,7 +92,7 @@ TEST_F(Adapter, LosesTheFeaturesThatAreDisabled) {
              FeatureCase{"depthBounds", &gpu::Features::depth_bounds},
              FeatureCase{"occlusionQueryPrecise", &gpu::Features::occlusion_query},
              FeatureCase{"timestamps", &gpu::Features::timestamp_query},
-             FeatureCase{"sampleRate", &gpu::Features::multisample_4},
+             FeatureCase{"sampleRate", &gpu::Features::sample_shading},
              FeatureCase{"sampledStencil", &gpu::Features::sampled_stencil},
          }) {
         SCOPED_TRACE(name);

@@ -18,6 +18,8 @@ struct Buffer {
     Allocation memory;
     std::uint64_t size = 0;
     Tracker tracker;
+    /// Of the host's command buffer in which what reads it was recorded last (VulkanBackend).
+    std::uint64_t read_by_host = 0;
     bool zeroed = false;  ///< contents are defined: zero or written
     // What copies have written since the last barrier: copies into disjoint ranges need no barrier
     // between them. Empty when begin == end.

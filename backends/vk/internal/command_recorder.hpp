@@ -15,14 +15,16 @@ namespace gnomon::vk {
 
 class CommandRecorder {
 public:
-    /// `out` is the queue's own, or a host's, which is submitted after the queue's.
+    /// `out` is the queue's own, or a host's, which is submitted after the queue's and has a number
+    /// from 1 then: what is read there is marked by it.
     CommandRecorder(Device& device, RenderPasses& render_passes, Resources& resources, Queue& queue,
-                    VkCommandBuffer out)
+                    VkCommandBuffer out, std::uint64_t host_buffer = 0)
         : device_(device),
           render_passes_(render_passes),
           resources_(resources),
           queue_(queue),
-          out_(out) {}
+          out_(out),
+          host_buffer_(host_buffer) {}
 
     /// Fails when memory for a render pass or framebuffer runs out; what came before that pass
     /// stays recorded.
@@ -75,6 +77,12 @@ private:
     void visit(const gpu::cmd::EndOcclusionQuery& command);
     void visit(const gpu::cmd::CopyBufferToBuffer& command);
 
+    template <class Object>
+    void note_read(Object& object) const {
+        if (host_buffer_ != 0) {
+            object.read_by_host = host_buffer_;
+        }
+    }
     void bind_stale_groups();
     void begin_label(const std::string& label);
     void end_label();
@@ -84,11 +92,12 @@ private:
     Resources& resources_;
     Queue& queue_;
     VkCommandBuffer out_;
+    std::uint64_t host_buffer_ = 0;
 
     // Of the pass being recorded.
     const gpu::RenderPassDesc* pass_ = nullptr;
     const Pipeline* pipeline_ = nullptr;
-    gpu::TextureId host_pass_;  // of the host's render pass that it is recorded in
+    HostPassKind host_pass_ = 0;  // that it is recorded in
     std::array<BoundGroup, gpu::max_bind_groups> groups_{};
     std::uint32_t open_query_ = 0;
 };

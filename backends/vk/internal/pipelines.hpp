@@ -7,15 +7,15 @@
 #include <vector>
 
 #include <gnomon/gpu/descriptors.hpp>
-#include <gnomon/vk/host_device.hpp>
 
+#include "internal/host_passes.hpp"
 #include "internal/render_passes.hpp"
 
 namespace gnomon::vk {
 
-/// A pipeline once more, for a render pass of the host's.
+/// A pipeline once more, for a kind of render passes of the host's.
 struct PipelineInHostPass {
-    gpu::TextureId pass;
+    HostPassKind kind = 0;
     VkPipeline handle = VK_NULL_HANDLE;
 };
 
@@ -26,9 +26,9 @@ struct Pipeline {
     std::vector<gpu::BindGroupLayoutId> bind_group_layouts;
 
     /// Null where it was not made for that one.
-    [[nodiscard]] VkPipeline in_host_pass(gpu::TextureId pass) const {
+    [[nodiscard]] VkPipeline in_host_pass(HostPassKind kind) const {
         for (const PipelineInHostPass& made : in_host_passes) {
-            if (made.pass == pass) {
+            if (made.kind == kind) {
                 return made.handle;
             }
         }
@@ -41,12 +41,6 @@ struct PipelineParts {
     VkShaderModule vertex = VK_NULL_HANDLE;
     VkShaderModule fragment = VK_NULL_HANDLE;  ///< may be null
     std::vector<VkDescriptorSetLayout> set_layouts;
-};
-
-/// A render pass of the host's that was imported.
-struct HostPass {
-    gpu::TextureId id;
-    const HostRenderPass* pass = nullptr;
 };
 
 class PipelineMaker {

@@ -47,6 +47,12 @@ public:
     /// Submits, then waits until the device has finished.
     [[nodiscard]] Status finish();
 
+    /// What is destroyed from now on may be used by what the host records, and submits after our
+    /// next submission: it waits for let_go().
+    void hold() { holds_ = true; }
+    /// The host has submitted that, or does before our next submission.
+    void let_go();
+
     /// Runs `destroy` once nothing recorded so far can use the object any more.
     void defer(std::function<void()> destroy);
     /// For the end: waits for the device and runs all that was deferred. What is recorded but not
@@ -85,7 +91,9 @@ private:
     std::vector<Slot> free_;
     std::optional<Slot> recording_;
     std::deque<InFlight> in_flight_;
-    std::deque<Deferred> deferred_;
+    std::deque<Deferred> deferred_;  // in order of their numbers
+    std::vector<std::function<void()>> held_;
+    bool holds_ = false;
     std::uint64_t submitted_ = 0;
     std::uint64_t completed_ = 0;
     std::string lost_;  // the sentence of the failure after which nothing works

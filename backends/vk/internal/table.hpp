@@ -26,6 +26,10 @@ public:
         GNOMON_EXPECTS(id.index < slots_.size() && slots_[id.index].has_value());
         return *slots_[id.index];
     }
+    [[nodiscard]] const Object& operator[](gpu::Id<Tag> id) const {
+        GNOMON_EXPECTS(id.index < slots_.size() && slots_[id.index].has_value());
+        return *slots_[id.index];
+    }
     [[nodiscard]] Object take(gpu::Id<Tag> id) {
         Object object = std::move((*this)[id]);
         slots_[id.index].reset();

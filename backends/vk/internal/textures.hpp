@@ -7,8 +7,8 @@
 #include <string>
 
 #include <gnomon/gpu/descriptors.hpp>
-#include <gnomon/vk/host_device.hpp>
 
+#include "internal/host_passes.hpp"
 #include "internal/memory.hpp"
 #include "internal/sync.hpp"
 
@@ -36,6 +36,8 @@ struct Texture {
     std::optional<VkImageLayout> host_layout = std::nullopt;
     /// Of the depth and stencil of a host's render pass, which alone knows the image.
     std::optional<HostRenderPass> host_pass = std::nullopt;
+    HostPassKind host_pass_kind = 0;  ///< of that
+    std::uint64_t read_by_host = 0;   ///< as Buffer has it
 
     [[nodiscard]] VkImageView sampled(gpu::Aspect aspect) const;
 };
@@ -46,6 +48,8 @@ struct Texture {
                                              const HostImage& host);
 [[nodiscard]] Result<Texture> import_texture(Device& device, const gpu::TextureDesc& desc,
                                              const HostRenderPass& host);
+/// gpu::Backend::takes_colors_beside().
+[[nodiscard]] Status takes_colors_beside(const Texture& texture);
 void free_texture(Device& device, Memory& memory, Texture& texture);
 
 /// Gathers the transition before a use.

@@ -30,6 +30,9 @@ public:
     Status create_texture(gpu::TextureId id, const gpu::TextureDesc& desc) override;
     Status import_texture(gpu::TextureId id, const gpu::TextureDesc& desc,
                           const gpu::NativeTexture& native) override;
+    [[nodiscard]] Status takes_colors_beside(gpu::TextureId id) const override {
+        return gnomon::vk::takes_colors_beside(resources_.textures[id]);
+    }
     Status create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& desc) override;
     Status create_shader(gpu::ShaderId id, const gpu::ShaderDesc& desc) override;
     Status create_bind_group_layout(gpu::BindGroupLayoutId id,
@@ -72,7 +75,12 @@ private:
     template <class Object>
     void destroy_later(Object object);
     /// Those that a pipeline may come to be used in.
-    [[nodiscard]] std::vector<HostPass> host_passes_for(const gpu::RenderPipelineDesc& desc);
+    [[nodiscard]] std::vector<HostPass> host_passes_for(const gpu::RenderPipelineDesc& desc) const;
+    /// Looks whether the host has another command buffer now; before whatever depends on that.
+    void look_at_host();
+    /// That a write to a buffer or texture does not change what the host's command buffer reads.
+    template <class Object>
+    [[nodiscard]] Status check_write(const Object& object);
     void write_descriptors(const BindGroup& group, const BindGroupLayout& layout,
                            const gpu::BindGroupDesc& desc);
 
@@ -86,7 +94,9 @@ private:
     RenderPasses render_passes_;
     PipelineMaker pipeline_maker_;
     Resources resources_;
-    std::vector<gpu::TextureId> host_passes_;  ///< those of textures that a HostRenderPass is for
+    HostPasses host_passes_;          ///< of textures that a HostRenderPass is for
+    void* host_buffer_ = nullptr;     ///< the host's command buffer when it was looked at last
+    std::uint64_t host_buffers_ = 0;  ///< how often it had been set then, which names it
     VkSampler nearest_sampler_ = VK_NULL_HANDLE;  ///< for textures that are only fetched
     std::unique_ptr<Swapchain> swapchain_;
 };
