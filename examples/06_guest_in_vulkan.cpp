@@ -226,6 +226,7 @@ private:
         queue_info.queueFamilyIndex = queue_family;
         queue_info.queueCount = 1;
         queue_info.pQueuePriorities = &priority;
+        require_features();
         auto features13 = make<VkPhysicalDeviceVulkan13Features>(
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
         features13.dynamicRendering = VK_TRUE;
@@ -243,6 +244,23 @@ private:
         pool.queueFamilyIndex = queue_family;
         check(vkCreateCommandPool(device, &pool, nullptr, &pool_), "vkCreateCommandPool");
         at_the_end([this] { vkDestroyCommandPool(device, pool_, nullptr); });
+    }
+
+    void require_features() const {
+        auto of_1_3 = make<VkPhysicalDeviceVulkan13Features>(
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+        auto all = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+        all.pNext = &of_1_3;
+        vkGetPhysicalDeviceFeatures2(physical_device, &all);
+        if (of_1_3.dynamicRendering == VK_FALSE) {
+            throw std::runtime_error(
+                "The device lacks dynamicRendering, by which this host draws.");
+        }
+        if (all.features.depthClamp == VK_FALSE) {  // guest
+            throw std::runtime_error(
+                "The device lacks depthClamp, without which volumes end at this camera's far "
+                "plane.");
+        }
     }
 
     [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& needs,
@@ -523,6 +541,7 @@ Status draw_a_frame(Host& host) {
     adopted->commands->command_buffer = host.begin();
     host.draw_depth_and_ambient_light();
     if (const Status counted = pass->count(0); !counted) return counted;
+    adopted->commands->command_buffer = nullptr;  // no more goes into it
     host.add_lamp();
     host.end("guest_in_vulkan.ppm");
     return {};

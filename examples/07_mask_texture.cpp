@@ -223,6 +223,7 @@ private:
         gl_.GenTextures(1, &mask);                                            // guest
         gl_.BindTexture(GL_TEXTURE_2D, mask);                                 // guest
         gl_.TexStorage2D(GL_TEXTURE_2D, 1, GL_R32UI, width, height);          // guest
+        // Integers are not filtered: with other filters the texture reads as nothing.
         gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);  // guest
         gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);  // guest
     }
