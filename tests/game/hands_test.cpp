@@ -270,10 +270,10 @@ struct Frames {
 };
 /// `drawn` says when a frame that began then has been drawn and shown.
 template <class Drawn>
-Frames frames_of(std::size_t count, const Drawn& drawn) {
+Frames frames_of(std::size_t count, const Drawn& drawn, double speed = 1.0) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> overslept_s(0.00002, 0.0003);
-    Stepper stepper;
+    Stepper stepper(speed);
     Frames frames;
     double begun_s = 0.0;
     double now_s = drawn(0.0);
@@ -302,6 +302,28 @@ TEST(Pace, without_a_screen_that_sets_it_is_a_tick_a_frame_as_even_as_ticks) {
         all_s += frames.lengths_s[i];
     }
     EXPECT_NEAR(all_s, 20000.0 * tick_s, 0.001) << "what naps overrun does not add up";
+}
+
+TEST(Pace, of_a_slow_game_is_even_and_has_frames_between_its_ticks) {
+    for (const double speed : {0.1, 0.35, 0.5, 0.7}) {
+        std::mt19937 random(5);
+        std::uniform_real_distribution<double> work_s(0.001, 0.009);
+        const Frames frames = frames_of(
+            2000, [&](double s) { return s + work_s(random); }, speed);
+        double since_tick_s = 0.0;
+        std::size_t ticks = 0;
+        for (std::size_t i = 0; i < frames.ticks.size(); ++i) {
+            since_tick_s += frames.lengths_s[i];
+            // What trembles is made up for in the next frame.
+            ASSERT_LT(frames.lengths_s[i], tick_s + 2.0 * Stepper::tremble_s) << speed << ", " << i;
+            ASSERT_LE(frames.ticks[i], 1U) << speed << ", " << i;
+            if (frames.ticks[i] == 0) continue;
+            ASSERT_NEAR(since_tick_s, tick_s / speed, 0.0007) << speed << ", " << i;
+            since_tick_s = 0.0;
+            ++ticks;
+        }
+        EXPECT_GT(ticks, 190U) << speed;
+    }
 }
 
 TEST(Pace, is_the_screens_where_that_has_about_sixty_pictures_a_second) {

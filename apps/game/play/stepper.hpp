@@ -43,10 +43,13 @@ public:
     }
 
     /// How long a frame is to last for the next ticks to be due: one, or of a quick game as many as
-    /// it is quicker. What is owed counts, so that who keeps to it owes nothing in the end.
+    /// it is quicker. A slow game's ticks have even frames between them, none longer than `tick_s`:
+    /// the camera turns as smoothly. What is owed counts, so that who keeps to it owes nothing in
+    /// the end.
     [[nodiscard]] double until_next_s() const {
         const double ticks = std::max(1.0, std::floor(speed_));
-        return (ticks * tick_s - left_s_) / speed_ - owed_s_;
+        const double rest_s = (ticks * tick_s - left_s_) / speed_;
+        return rest_s / std::max(1.0, std::ceil(rest_s / tick_s - 1e-6)) - owed_s_;
     }
     /// Forgets what is left.
     void reset() { left_s_ = owed_s_ = 0.0; }
