@@ -77,10 +77,22 @@ void Input::release(MouseButton button) {
 
 void Input::move_cursor(const glm::dvec2& position_px) { cursor_px_ = position_px; }
 
+void Input::see_gamepad(const std::optional<Gamepad>& state, bool has_focus) {
+    gamepad = state;
+    if (!state || !has_focus) {
+        if (state) gamepad = Gamepad{};
+        ignored_.set();
+        return;
+    }
+    ignored_ &= state->buttons;
+    gamepad->buttons &= ~ignored_;
+}
+
 void Input::release_all() {
     keys_down_.reset();
     buttons_released_ |= buttons_down_;
     buttons_down_.reset();
+    ignored_.set();
 }
 
 void Input::lose_focus() {

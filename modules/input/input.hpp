@@ -41,6 +41,7 @@ inline constexpr std::size_t mouse_button_count = 3;
 /// "left", "right", "middle".
 [[nodiscard]] std::optional<MouseButton> mouse_button_named(std::string_view name);
 
+inline constexpr std::size_t gamepad_button_count = 15;
 /// A gamepad, in the layout of an Xbox controller.
 struct Gamepad {
     glm::vec2 left_stick{0.0F};   ///< x to the right, y down; -1 .. 1, no dead zone taken out
@@ -49,7 +50,7 @@ struct Gamepad {
     float right_trigger = 0.0F;
     /// a, b, x, y, left and right bumper, back, start, guide, left and right thumb, then the pad's
     /// up, right, down, left.
-    std::bitset<15> buttons;
+    std::bitset<gamepad_button_count> buttons;
     bool operator==(const Gamepad&) const = default;
 };
 
@@ -67,6 +68,10 @@ public:
     void press(MouseButton button);
     void release(MouseButton button);
     void move_cursor(const glm::dvec2& position_px);
+    /// What the first gamepad does now, once a frame; none: none is connected. While the keyboard
+    /// is another window's it is at rest, for it is that window's as well. A button that is held
+    /// from then, or from before the gamepad was connected, counts once it was let go.
+    void see_gamepad(const std::optional<Gamepad>& state, bool has_focus);
     /// Everything that is held is let go.
     void release_all();
     /// The keyboard is another window's now: everything that is held is let go, and focus_lost is
@@ -116,6 +121,8 @@ private:
 
     std::bitset<key_count> keys_down_, keys_pressed_, keys_repeated_;
     std::bitset<mouse_button_count> buttons_down_, buttons_pressed_, buttons_released_;
+    // The gamepad's that have not been seen up with the keyboard here.
+    std::bitset<gamepad_button_count> ignored_ = std::bitset<gamepad_button_count>().set();
     glm::dvec2 cursor_px_{0.0};
     glm::dvec2 cursor_before_px_{0.0};
 };

@@ -168,7 +168,9 @@ const input::Input& Window::poll(double wait_s) {
     } else {
         glfwPollEvents();
     }
-    s.input.gamepad = internal::read_gamepad();
+    const bool has_focus =
+        s.window != nullptr && glfwGetWindowAttrib(s.window, GLFW_FOCUSED) == GLFW_TRUE;
+    s.input.see_gamepad(internal::read_gamepad(), has_focus);
     return s.input;
 }
 

@@ -58,7 +58,7 @@ public:
 
     /// Begins a frame of input with the events since the last call. `wait_s` > 0: waits that long
     /// for one, for programs that draw only when something happens. While the window is minimised
-    /// it waits a tenth of a second in any case.
+    /// it waits a tenth of a second in any case. Gamepads are read as Input::see_gamepad() says.
     const input::Input& poll(double wait_s = 0.0);
     [[nodiscard]] const input::Input& input() const;
 

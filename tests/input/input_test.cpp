@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 #include <gnomon/input/input.hpp>
 
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
 #include <set>
 
 namespace gnomon::input {
@@ -76,6 +79,52 @@ TEST(Input, a_window_without_the_keyboard_holds_nothing) {
     input.begin_frame();
     EXPECT_FALSE(input.focus_lost);
     EXPECT_FALSE(input.anything_happened());
+}
+
+Gamepad pad_with(std::initializer_list<std::size_t> buttons) {
+    Gamepad pad;
+    pad.left_stick = {0.5F, -1.0F};
+    pad.right_trigger = 1.0F;
+    for (const std::size_t button : buttons) pad.buttons.set(button);
+    return pad;
+}
+
+TEST(Input, a_gamepad_is_at_rest_while_the_keyboard_is_anothers) {
+    Input input;
+    input.see_gamepad(pad_with({}), true);
+    input.see_gamepad(pad_with({0, 7}), true);
+    EXPECT_EQ(input.gamepad, pad_with({0, 7}));
+    input.see_gamepad(pad_with({0, 6}), false);
+    EXPECT_EQ(input.gamepad, Gamepad{}) << "it is there";
+    input.see_gamepad(std::nullopt, false);
+    EXPECT_FALSE(input.gamepad) << "it was pulled out";
+}
+
+TEST(Input, a_gamepads_button_that_is_held_when_the_keyboard_comes_back_presses_nothing) {
+    Input input;
+    input.see_gamepad(pad_with({0}), true);
+    EXPECT_EQ(input.gamepad, pad_with({})) << "from before there was a window";
+    input.see_gamepad(pad_with({}), true);
+    input.see_gamepad(pad_with({0}), true);
+    EXPECT_EQ(input.gamepad, pad_with({0}));
+    input.see_gamepad(pad_with({0, 1}), false);
+    input.see_gamepad(pad_with({0, 1}), true);
+    EXPECT_EQ(input.gamepad, pad_with({})) << "but the sticks are as they are";
+    input.see_gamepad(pad_with({1, 2}), true);
+    EXPECT_EQ(input.gamepad, pad_with({2})) << "of 1 nobody has let go";
+    input.see_gamepad(pad_with({0, 2}), true);
+    EXPECT_EQ(input.gamepad, pad_with({0, 2}));
+    // Away and back between two frames.
+    input.lose_focus();
+    input.see_gamepad(pad_with({0}), true);
+    EXPECT_EQ(input.gamepad, pad_with({}));
+    // It is pulled out and put in again.
+    input.see_gamepad(std::nullopt, true);
+    input.see_gamepad(pad_with({0, 3}), true);
+    EXPECT_EQ(input.gamepad, pad_with({}));
+    input.see_gamepad(pad_with({}), true);
+    input.see_gamepad(pad_with({0}), true);
+    EXPECT_EQ(input.gamepad, pad_with({0}));
 }
 
 TEST(Input, what_is_let_go_at_once_lost_no_keyboard) {
