@@ -283,20 +283,20 @@ TEST_P(GameWindowOn, plays_for_long_at_ten_times_the_speed_in_steady_memory) {
 
 TEST_P(GameWindowOnce, records_what_is_played_but_not_what_is_paused) {
     // The title, the level, a pause of twenty frames, the level anew, and on.
-    run_well(
-        on(scripted("1 screenshot title.png\n"
-                    "2 tap Enter\n"
-                    "3 screenshot begun.png\n"
-                    "4 press D\n"
-                    "24 screenshot walked.png\n"
-                    "25 unfocus\n"  // which pauses, and lets go of D
-                    "27 screenshot paused.png\n"
-                    "44 press D\n"
-                    "45 tap Escape\n"
-                    "50 tap R\n"
-                    "51 release D\n"
-                    "60 close\n",
-                    in_two_levels({"--record", "mine.replay"}))));
+    run_well(on(scripted(
+        "1 screenshot title.png\n"
+        "2 tap Enter\n"
+        "3 screenshot begun.png\n"
+        "4 press D\n"
+        "24 screenshot walked.png\n"
+        "25 unfocus\n"  // which pauses, and lets go of D
+        "27 screenshot paused.png\n"
+        "44 press D\n"
+        "45 tap Escape\n"
+        "50 tap R\n"
+        "51 release D\n"
+        "60 close\n",
+        in_two_levels({"--record", "mine.replay", "--capture", "pictures", "--every", "1"}))));
     EXPECT_GT(changed_pixels("title.png", "begun.png"), 1500U);
     EXPECT_GT(changed_pixels("begun.png", "walked.png"), 100U);
     EXPECT_GT(changed_pixels("walked.png", "paused.png"), 1500U);
@@ -309,6 +309,11 @@ TEST_P(GameWindowOnce, records_what_is_played_but_not_what_is_paused) {
     EXPECT_EQ(restarts, 1U);
     // From the first step in frame 4 to 24, from 45 to 49, and the restart, after which D is held.
     EXPECT_NEAR(static_cast<double>(recording->inputs.size()), 21.0 + 5.0 + 2.0 + 9.0, 2.0);
+    // Each tick has its picture, the restart's included.
+    for (std::size_t place = 0; place <= recording->inputs.size(); ++place) {
+        EXPECT_TRUE(std::filesystem::exists(path(fmt::format("pictures/tick_{:06}.png", place))))
+            << place;
+    }
     const auto again =
         run_well(on(scripted("0 move 1 1\n", in_two_levels({"--replay", "mine.replay"}))));
     EXPECT_THAT(again.output, EndsWith(hash_line_of(path("mine.replay"), path("two"))));

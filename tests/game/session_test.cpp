@@ -20,9 +20,14 @@ TEST(Session, says_when_a_recording_has_no_room_for_more) {
     Session session = begun();
     for (std::size_t i = 0; i < most_ticks; ++i) ASSERT_TRUE(session.tick({.pause = true}));
     EXPECT_FALSE(session.is_beyond_recording());
+    EXPECT_FALSE(session.has_just_filled_recording());
+    ASSERT_TRUE(session.restart()) << "which is an input as well";
+    EXPECT_TRUE(session.is_beyond_recording());
+    EXPECT_TRUE(session.has_just_filled_recording());
     ASSERT_TRUE(session.tick({.east = 127}));
     EXPECT_TRUE(session.is_beyond_recording());
-    EXPECT_EQ(session.inputs(), most_ticks + 1);
+    EXPECT_FALSE(session.has_just_filled_recording()) << "it is said once";
+    EXPECT_EQ(session.inputs(), most_ticks + 2);
     EXPECT_EQ(session.played().inputs.size(), most_ticks);
     EXPECT_GT(session.world().player().velocity_m_s.x, 0.0) << "the game goes on";
     // What there is is a recording all the same.

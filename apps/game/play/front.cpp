@@ -154,6 +154,14 @@ void Front::update_cursor() {
     skipped_motions_ = 2;
 }
 
+// What follows from an input of the level that is played, a restart's included.
+void Front::note_input(bool is_last) {
+    picture_due_ = session_->inputs() % options_.every == 0 || is_last;
+    if (!options_.record.empty() && session_->has_just_filled_recording()) {
+        say("The recording is full: it holds this level's first hour.");
+    }
+}
+
 Status Front::tick(const input::Input& input) {
     Session& session = *session_;
     const Level& level = session.world().level();
@@ -166,11 +174,7 @@ Status Front::tick(const input::Input& input) {
     if (!ticked) return ticked;
     const World& world = session.world();
     const bool is_last = watches() ? session.is_over() : world.outcome() != Outcome::Playing;
-    picture_due_ = session.inputs() % options_.every == 0 || is_last;
-    if (!options_.record.empty() && session.is_beyond_recording() && !told_recording_is_full_) {
-        told_recording_is_full_ = true;
-        say("The recording is full: it holds this level's first hour.");
-    }
+    note_input(is_last);
     if (!is_last) return {};
     if (watches()) {
         ended_ = Ended{.outcome = world.outcome(), .ticks = world.now(), .hash = world.hash()};
@@ -200,13 +204,13 @@ Status Front::simulate(const input::Input& input, double dt_s) {
         }
     }
     const auto begin = FrameClock::now();
-    const bool captures = capture_ && plays;
-    if (captures && picture_due_) return {};  // of how it begins
     if (plays && !watches() && !is_under_way_) {
         // Whoever reads what the level has to say is not caught meanwhile.
         is_under_way_ = pad_of(input) != Pad{};
         if (!is_under_way_) return {};
     }
+    const bool captures = capture_ && plays;
+    if (captures && picture_due_) return {};  // of how it begins
     const Screen before = screens_.now();
     for (std::uint32_t due = stepper_.advance(dt_s); due > 0; --due) {
         if (const Status ticked = tick(input); !ticked) return ticked;

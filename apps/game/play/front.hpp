@@ -51,6 +51,7 @@ private:
     [[nodiscard]] Status frame(const input::Input& input, double dt_s);
     [[nodiscard]] Status simulate(const input::Input& input, double dt_s);
     [[nodiscard]] Status tick(const input::Input& input);
+    void note_input(bool is_last);
     [[nodiscard]] Status draw(const input::Input& input, double dt_s);
     void show_marks(const shadows::View& view, const glm::uvec2& size, const glm::dvec2& cursor_px);
     [[nodiscard]] MenuPress press_of(const input::Input& input) const;
@@ -67,6 +68,7 @@ private:
     [[nodiscard]] Status obey(const Order& order);
     [[nodiscard]] Status obey(const std::string& command);
     [[nodiscard]] Status begin_level(std::size_t level);
+    [[nodiscard]] Status restart_level();
     [[nodiscard]] Status show_backdrop();
     [[nodiscard]] Status change(Setting setting, int by);
     void save();
@@ -121,7 +123,6 @@ private:
     double rules_ms_ = 0.0;
     bool is_under_way_ = false;
     bool picture_due_ = false;
-    bool told_recording_is_full_ = false;
     bool captured_ = false;
     int skipped_motions_ = 0;  // of a cursor that was put elsewhere
     bool over_ = false;

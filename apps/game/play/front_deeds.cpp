@@ -57,6 +57,13 @@ Status Front::begin_level(std::size_t level) {
     return {};
 }
 
+Status Front::restart_level() {
+    is_under_way_ = false;
+    if (const Status restarted = session_->restart(); !restarted) return restarted;
+    note_input(false);
+    return {};
+}
+
 // The title's level plays by itself, as its recording has it; where there is none, nobody moves.
 Status Front::show_backdrop() {
     backdrop_ = screens_.level();
@@ -213,7 +220,7 @@ Status Front::obey(const Order& order) {
     switch (order.kind) {
         case Order::Kind::None: return {};
         case Order::Kind::Begin: return begin_level(order.level);
-        case Order::Kind::Restart: is_under_way_ = false; return session_->restart();
+        case Order::Kind::Restart: return restart_level();
         case Order::Kind::Leave: return show_backdrop();
         case Order::Kind::Change: return change(order.setting, order.by);
         case Order::Kind::Save: save(); return {};

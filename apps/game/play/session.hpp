@@ -42,6 +42,10 @@ public:
     [[nodiscard]] std::uint64_t inputs() const { return inputs_; }
     /// Inputs are lost to played().
     [[nodiscard]] bool is_beyond_recording() const { return inputs_ > played_.inputs.size(); }
+    /// The last input is the first one that is lost to played().
+    [[nodiscard]] bool has_just_filled_recording() const {
+        return inputs_ == played_.inputs.size() + 1;
+    }
     /// The most that the alarm has come to since the level began.
     [[nodiscard]] double worst_alarm() const { return worst_alarm_; }
     [[nodiscard]] bool follows() const { return follows_; }
