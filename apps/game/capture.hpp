@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Capture: pictures of single ticks in a folder, and with them, where asked for, what the stencil
-// held of each light, as `gnomon render --stencil` writes it. Named by the place of their input:
-// tick_000120.png, tick_000120.light0.pgm.
+// held of each light, as `gnomon render --stencil` writes it. Named by the place of their input,
+// and of the light in the level, whichever others are off: tick_000120.png,
+// tick_000120.light0.pgm.
 #pragma once
 
 #include <cstddef>

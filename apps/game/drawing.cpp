@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <gnomon/render/camera.hpp>
@@ -51,6 +52,11 @@ Result<shadows::ShadowSystem> make_shadow_system(const DrawingOptions& options) 
     return shadows::ShadowSystem::create({.force_technique = options.technique,
                                           .silhouette = options.silhouette,
                                           .receivers = shadows::Receivers::Submitted});
+}
+
+std::size_t place_of(std::span<const MeterLight> lights, std::uint64_t key) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        lights, [&](const MeterLight& light) { return light.shadow.key < key; }));
 }
 
 }  // namespace
@@ -101,11 +107,17 @@ Status Drawing::draw(Stage& stage, const Level& level, const shadows::View& view
     list_ = &std::move(frame).finish(view);
     stats_ = list_->stats;
     shadows_ms_ = milliseconds_since(start);
+    std::function<Status(std::size_t)> after_drawn;
+    if (after_light) {
+        after_drawn = [&](std::size_t i) {
+            return after_light(place_of(stage.lights(), list_->lights[i].light));
+        };
+    }
     const Mood& mood = level.mood;
     const Status rendered = renderer_.render({.scene = stage.scene(),
                                               .view = view,
                                               .shadows = *list_,
-                                              .after_light = after_light,
+                                              .after_light = after_drawn,
                                               .unshadowed = options_.unshadowed,
                                               .environment = {.sky = mood.sky,
                                                               .ground = mood.ground,

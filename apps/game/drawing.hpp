@@ -58,7 +58,8 @@ public:
     /// create(); after that, draw with a new one.
     [[nodiscard]] Status configure(const DrawingOptions& options);
 
-    /// One frame, submitted. `after_light` as FrameInput has it.
+    /// One frame, submitted. `after_light` as FrameInput has it, but that it names a light by its
+    /// place among all of the stage's, in the order of their keys, whichever are off.
     [[nodiscard]] Status draw(Stage& stage, const Level& level, const shadows::View& view,
                               const std::function<Status(std::size_t)>& after_light = {});
 
