@@ -247,6 +247,10 @@ int run(int argc, char** argv) {
     if (o.capture.masks && o.capture.folder.empty()) {
         return refuse("--masks is about what --capture DIR keeps; give that as well.");
     }
+    if (o.capture.masks && o.capture.times) {
+        return refuse(
+            "--masks reads every light back, which --times would count; give one of them.");
+    }
     const bool draws = !o.capture.folder.empty() || o.capture.times;
     if (o.capture.times && app.count("--every") == 0) o.capture.every = 1;
     if (o.headless && !draws) {

@@ -157,6 +157,10 @@ TEST(CommandLine, refuses_in_one_sentence) {
         {{"--headless", "--autopilot", "--masks"},
          2,
          "gnomon-game: --masks is about what --capture DIR keeps; give that as well.\n"},
+        {{"--headless", "--autopilot", "--times", "--capture", "x", "--masks"},
+         2,
+         "gnomon-game: --masks reads every light back, which --times would count; give one of "
+         "them.\n"},
         {{"--replay", "x", "--times"},
          2,
          "gnomon-game: --times is about frames drawn as fast as it goes; give --headless as "
