@@ -47,4 +47,6 @@ install(FILES
   DESTINATION ${GNOMON_PACKAGE_DIR} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
-include(gnomon_cpack)
+if(PROJECT_IS_TOP_LEVEL)  # what the packages of a project around gnomon are is for that project to say
+  include(gnomon_cpack)
+endif()
