@@ -52,6 +52,9 @@ void submit_all(const World& world, shadows::ShadowSystem::Frame& frame) {
 /// What was marked. A mark is a hint: one too many costs a comparison; the system still decides by
 /// the values.
 void submit_marked(World& world, shadows::ShadowSystem::Frame& frame) {
+    // Before the casters: said after them, it would take away what came back under its key.
+    for (const std::uint64_t key : world.gone) frame.remove_caster(key);
+    world.gone.clear();
     for (std::size_t row = 0; row < world.key.size(); ++row) {
         if (world.marked[row] == 0) continue;
         world.marked[row] = 0;
@@ -59,8 +62,6 @@ void submit_marked(World& world, shadows::ShadowSystem::Frame& frame) {
                       .mesh = world.shape[row].mesh,
                       .world_from_local = world.pose[row].world_from_local});
     }
-    for (const std::uint64_t key : world.gone) frame.remove_caster(key);
-    world.gone.clear();
     frame.light(
         {.key = 1, .position_world = world.lamp.world_from_local[3], .range_m = Lamp{}.range_m});
 }
@@ -92,6 +93,10 @@ int main() {
         frame("the lamp is carried away", 5.0);
         world.remove(2);
         frame("a ship is gone", 5.0);
+        const Pose place = world.pose[0];
+        world.remove(0);
+        world.add(100, place, hull);
+        frame("a ship goes and comes back under its key", 5.0);
     }
     return 0;
 }
