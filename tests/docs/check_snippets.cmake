@@ -1,16 +1,22 @@
 # Script mode: every block of C++ in DOCUMENTS compiles (but for blocks that show an example, which compare_readme.cmake
-# holds against it). A block becomes the body of a function in a struct that inherits contexts::NAME of contexts.hpp, NAME being
-# the document's; "…", for what a guide leaves out, becomes {}, or nothing at a list's end. All of it is one source, and nothing but its syntax is checked.
+# holds against it). Each document is a source of its own. First in it, at file scope, are its blocks that begin with #include, so
+# that they have to name all that they and the others need; then contexts/NAME.hpp, NAME being the document's; then every other
+# block as the body of a function in a struct that inherits contexts::NAME. "…", for what a guide leaves out, becomes {}, or nothing
+# at a list's end. Nothing but syntax is checked.
 cmake_minimum_required(VERSION 3.25)
 string(REPLACE "," ";" DOCUMENTS "${DOCUMENTS}")
 string(REPLACE "," ";" INCLUDES "${INCLUDES}")
-set(source "#include \"contexts.hpp\"\n")
+list(TRANSFORM INCLUDES PREPEND -I)
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
 set(count 0)
 foreach(document IN LISTS DOCUMENTS)
   get_filename_component(name ${document} NAME_WE)
   string(REPLACE "-" "_" name ${name})
   file(READ ${SOURCE}/${document} rest)
   set(line 1)
+  set(head)
+  set(source)
   while(TRUE)
     string(FIND "${rest}" "```cpp\n" at)
     if(at EQUAL -1)
@@ -34,24 +40,29 @@ foreach(document IN LISTS DOCUMENTS)
       math(EXPR count "${count} + 1")
       string(REPLACE ", …}" "}" body "${block}")
       string(REPLACE "…" "{}" body "${body}")
-      string(APPEND source "struct Block${count} : contexts::${name} { void run() {\n"
-        "#line ${line} \"${document}\"\n${body}\n} };\n")
+      set(place "#line ${line} \"${document}\"\n")
+      if(block MATCHES "^#include ")
+        string(APPEND head "${place}${body}\n")
+      else()
+        string(APPEND source "struct Block${count} : contexts::${name} { void run() {\n${place}${body}\n} };\n")
+      endif()
     endif()
     string(REGEX REPLACE "[^\n]" "" breaks "${block}")
     string(LENGTH "${breaks}" breaks)
     math(EXPR line "${line} + ${breaks}")
   endwhile()
+  if(NOT source AND NOT head)
+    continue()
+  endif()
+  file(WRITE ${SCRATCH}/${name}.cpp "${head}#line 1 \"${name}.cpp\"\n#include \"contexts/${name}.hpp\"\n${source}")
+  execute_process(
+    COMMAND ${COMPILER} -std=c++20 -fsyntax-only -Wno-unused-result -I${CMAKE_CURRENT_LIST_DIR} ${INCLUDES} ${SCRATCH}/${name}.cpp
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result STREQUAL "0")
+    message(FATAL_ERROR "A block of C++ in ${document} does not compile.\n${output}")
+  endif()
 endforeach()
 if(count LESS MINIMUM)
   message(FATAL_ERROR "Only ${count} blocks of C++ were found: the guides or this check is broken.")
-endif()
-file(MAKE_DIRECTORY ${SCRATCH})
-file(WRITE ${SCRATCH}/snippets.cpp "${source}")
-list(TRANSFORM INCLUDES PREPEND -I)
-execute_process(
-  COMMAND ${COMPILER} -std=c++20 -fsyntax-only -Wno-unused-result -I${CMAKE_CURRENT_LIST_DIR} ${INCLUDES} ${SCRATCH}/snippets.cpp
-  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-if(NOT result STREQUAL "0")
-  message(FATAL_ERROR "A block of C++ in the guides does not compile.\n${output}")
 endif()
 message("${count} blocks compile")
