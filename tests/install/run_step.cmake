@@ -1,5 +1,11 @@
 cmake_minimum_required(VERSION 3.25)
 
+# What goes before the compiler in all that is configured from here: LAUNCHER, its words with bars between.
+if(LAUNCHER)
+  string(REPLACE "|" ";" words_of_launcher "${LAUNCHER}")
+  set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} "${words_of_launcher}")
+endif()
+
 # run_step(<what> COMMAND...): runs a command; when it fails, says what was being done and shows all it said.
 # Its output is left in step_output.
 function(run_step what)
