@@ -1,5 +1,5 @@
 # Makes the Debian packages of this build, looks at what they say and hold, and builds and runs a program against them where they
-# were unpacked. Nothing is installed.
+# were unpacked. Nothing is installed. SHARED: whether the libraries of this build are.
 include(${CMAKE_CURRENT_LIST_DIR}/run_step.cmake)
 file(REMOVE_RECURSE ${SCRATCH})
 # Fast compression: what is compressed is not the question.
@@ -43,10 +43,21 @@ must_match("The package gnomon" "${fields_gnomon}" "Section: graphics" "Depends:
 must_match("The files of gnomon" "${files_gnomon}" "\\./usr/bin/gnomon\n" "share/gnomon/game/levels/" "/doc/gnomon/copyright\n"
   "/doc/gnomon/changelog\\.Debian\\.gz\n")
 must_not_match("The files of gnomon" "${files_gnomon}" "\\.hpp\n" "\\.a\n" "\\.cmake\n" "/doc/libgnomon-dev" " \\./usr/local")
-must_match("The package libgnomon-dev" "${fields_libgnomon-dev}" "Section: libdevel" "Depends: libglm-dev, libexpected-dev\n"
+# What is linked statically is of the development files alone; of what is shared the names that one links are.
+set(only_linked "/libgnomon_shadows\\.a\n")
+set(depends_on_runtime)
+if(SHARED)
+  set(only_linked "/libgnomon_shadows\\.so -> libgnomon_shadows\\.so\\.[0-9.]+\n")
+  set(depends_on_runtime ", gnomon \\(= ${VERSION}-1\\)")
+  must_match("The files of gnomon" "${files_gnomon}" "/libgnomon_shadows\\.so\\.[0-9.]+ -> " "/libgnomon_gpu\\.so\\.[0-9.]+\n")
+  must_not_match("The files of libgnomon-dev" "${files_libgnomon-dev}" "\\.a\n" "\\.so\\.[0-9.]+ -> ")
+endif()
+must_not_match("The files of gnomon" "${files_gnomon}" "\\.so( -> [^\n]*)?\n")
+must_match("The package libgnomon-dev" "${fields_libgnomon-dev}" "Section: libdevel"
+  "\nDepends: libglm-dev, libexpected-dev${depends_on_runtime}\n"
   "Recommends: [^\n]*libfmt-dev" "\nDescription: exact hard shadows[^\n]*\n gnomon draws" "\n \\.\n This package has the development")
 must_match("The files of libgnomon-dev" "${files_libgnomon-dev}" "include/gnomon/shadows/shadow_system\\.hpp\n"
-  "/libgnomon_shadows\\.a\n" "/cmake/gnomon/gnomonConfig\\.cmake\n" "/pkgconfig/gnomon-shadows\\.pc\n"
+  "${only_linked}" "/cmake/gnomon/gnomonConfig\\.cmake\n" "/pkgconfig/gnomon-shadows\\.pc\n"
   "/share/gnomon/shaders/position\\.glsl\n" "/doc/libgnomon-dev/copyright\n"
   "/doc/libgnomon-dev/changelog\\.Debian\\.gz\n")
 must_not_match("The files of libgnomon-dev" "${files_libgnomon-dev}" "/bin/" "/internal/" "/gnomon/game/" "/modules/")
