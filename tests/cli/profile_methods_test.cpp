@@ -30,8 +30,45 @@ TEST_F(Profile, DrawsTheSameByAnyMethodButForEdges) {
         EXPECT_LE(differing, 7U) << method;
         EXPECT_GT(dark, 7U * 300U);
     }
+    EXPECT_EQ(summary("volumes")["study"]["method"]["name"], "volumes");
+    EXPECT_FALSE(summary("volumes")["study"]["method"]["backend"].get<std::string>().empty());
+    EXPECT_EQ(summary("scan")["study"]["method"], nlohmann::json({{"name", "scan"}}));
+    expect_refused({"profile", "--quiet", "--out", "x", "--merge", "scan", "projection"},
+                   {"--merge", "\"method\" differs"});
     // A backend that is named draws.
     EXPECT_EQ(run(profile("x", {"--backend", "null"})).exit_code, 2);
+}
+
+// Masks by another method are another study's, though all else is the same.
+TEST_F(Profile, MixesNoMethods) {
+    run_well(profile("scan"));
+    const std::string noon = read("scan/masks/2026-03-21T1200.npy");
+    const std::string before_noon = read("scan/masks/2026-03-21T1100.npy");
+    const nlohmann::json good = nlohmann::json::parse(read("scan/study.json"));
+    const auto by = [&](const nlohmann::json& method) {
+        nlohmann::json study = good;
+        study["method"] = method;
+        return study.dump();
+    };
+    const std::string volumes = by({{"name", "volumes"}, {"backend", "gl"}});
+    // A run goes on where masks are by its own method, and begins anew where they are not.
+    for (const bool same : {true, false}) {
+        write("scan/masks/2026-03-21T1100.npy", noon);
+        if (!same) write("scan/study.json", volumes);
+        run_well(profile("scan", {"--method", "scan"}));
+        EXPECT_EQ(read("scan/masks/2026-03-21T1100.npy"), same ? noon : before_noon);
+    }
+    EXPECT_EQ(nlohmann::json::parse(read("scan/study.json")), good);
+    run_well(profile("part"));
+    const Arguments merge{"profile", "--quiet", "--out", "x", "--merge", "scan", "part"};
+    write("part/study.json", volumes);
+    expect_refused(merge, {"--merge", "\"method\" differs"});
+    write("scan/study.json", by({{"name", "volumes"}, {"backend", "vk"}}));
+    expect_refused(merge, {"--merge", "\"method\" differs"});
+    write("scan/study.json", by({{"name", "rays"}}));
+    expect_refused(merge, {"scan/study.json", "\"name\""});
+    write("scan/study.json", by({{"name", "volumes"}}));
+    expect_refused(merge, {"scan/study.json", "\"backend\""});
 }
 
 // North of the polar circle a year has days without sun: they have no hours, and it is said.

@@ -15,7 +15,6 @@
 #include <gnomon/sun_study/plan_scan.hpp>
 #include <gnomon/sun_study/plan_shadows.hpp>
 
-#include "devices.hpp"
 #include "files.hpp"
 #include "profile/mask_files.hpp"
 
@@ -76,12 +75,7 @@ private:
 // Draws plans, or asks about points; whatever it needs is made when it is first needed.
 class MaskMaker {
 public:
-    MaskMaker(const Study& study, const MaskSubjects& subjects, const ProfileOptions& options)
-        : study_(study), subjects_(subjects), backend_(options.backend), method_(options.method) {
-        if (method_ == PlanMethod::Auto) {
-            method_ = backend_.empty() ? PlanMethod::Scan : PlanMethod::Projection;
-        }
-    }
+    MaskMaker(const Study& study, MaskSubjects& subjects) : study_(study), subjects_(subjects) {}
 
     // Of one kind.
     Result<std::vector<sun_study::PlanMask>> masks(MaskKind kind,
@@ -98,16 +92,13 @@ public:
         return masks;
     }
 
-    // Makes the device and the plan that masks of this kind take.
+    // Makes the plan that masks of this kind take.
     Status make_ready(MaskKind kind) {
         if (kind == MaskKind::Surface) return {};
         auto& plan = kind == MaskKind::Plan ? plan_ : before_;
         if (plan) return {};
-        if (method_ != PlanMethod::Scan) {
-            if (const Status made = make_device(); !made) return made;
-        }
         auto made = PlanDrawer::create(
-            method_, device_ ? &*device_ : nullptr,
+            study_.method, subjects_.device ? &*subjects_.device : nullptr,
             kind == MaskKind::Plan ? subjects_.casters : subjects_.before, study_.grid, jobs_);
         if (!made) return forward_error(made);
         plan = std::move(*made);
@@ -117,29 +108,14 @@ public:
     // Masks that are best asked for together: enough for all threads and for a device that is never
     // waited for long; where each takes long, few, since what is cut off is drawn again.
     [[nodiscard]] std::size_t batch_size(MaskKind kind) const {
-        return kind == MaskKind::Surface || method_ == PlanMethod::Volumes ? 4 : 64;
+        return kind == MaskKind::Surface || study_.method == PlanMethod::Volumes ? 4 : 64;
     }
     [[nodiscard]] const shadows::Jobs& jobs() const { return jobs_; }
 
 private:
-    Status make_device() {
-        if (device_) return {};
-        auto device = create_device({.backend = backend_});
-        if (!device) return forward_error(device);
-        if (device->caps().backend == "null") {
-            return fail(ErrorCode::InvalidInput,
-                        "--backend: \"null\" draws nothing, so that nothing would cast a shadow.");
-        }
-        device_ = std::move(*device);
-        return {};
-    }
-
     const Study& study_;
-    const MaskSubjects& subjects_;
-    std::string backend_;
-    PlanMethod method_;
+    MaskSubjects& subjects_;
     shadows::Jobs jobs_ = shadows::thread_jobs();
-    std::optional<gpu::Device> device_;
     std::optional<PlanDrawer> plan_;
     std::optional<PlanDrawer> before_;
     std::optional<shadows::ShadowQueries> queries_;
@@ -238,10 +214,9 @@ Result<std::vector<MaskJob>> mask_jobs(const Study& study) {
                                                      study.dates.size(), no_sun));
 }
 
-Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
-                  const MaskSubjects& subjects, const ProfileOptions& options,
-                  const std::filesystem::path& masks_folder, bool takes_over,
-                  const std::function<Status()>& before_writing) {
+Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs, MaskSubjects& subjects,
+                  const ProfileOptions& options, const std::filesystem::path& masks_folder,
+                  bool takes_over, const std::function<Status()>& before_writing) {
     const Shard shard = options.shard.value_or(Shard{});
     std::vector<const MaskJob*> missing;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -253,7 +228,7 @@ Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
         }
     }
     if (missing.empty()) return before_writing();
-    MaskMaker maker(study, subjects, options);
+    MaskMaker maker(study, subjects);
     for (const MaskJob* job : missing) {
         if (const Status ready = maker.make_ready(job->kind); !ready) return ready;
     }

@@ -5,8 +5,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <gnomon/gpu/device.hpp>
 
 #include "profile/day_result.hpp"
 #include "profile/site_model.hpp"
@@ -37,8 +40,9 @@ struct MaskShape {
 };
 [[nodiscard]] MaskShape shape_of(const Study& study, MaskKind kind);
 
-/// What masks are drawn of.
+/// What masks are drawn of, and on.
 struct MaskSubjects {
+    std::optional<gpu::Device> device;  ///< none where the study's method takes none
     std::vector<shadows::Caster> casters;
     std::vector<shadows::Caster> before;
     std::vector<sun_study::SurfacePoint> points;
@@ -50,7 +54,7 @@ struct MaskSubjects {
 /// written from then on. Says how far it is on a terminal. Fails as the device and `before_writing`
 /// do, and with ErrorCode::InvalidInput where something lies above every cell.
 [[nodiscard]] Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs,
-                                const MaskSubjects& subjects, const ProfileOptions& options,
+                                MaskSubjects& subjects, const ProfileOptions& options,
                                 const std::filesystem::path& masks_folder, bool takes_over,
                                 const std::function<Status()>& before_writing);
 

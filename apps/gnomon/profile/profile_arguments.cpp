@@ -283,10 +283,10 @@ const CLI::App* add_profile(CLI::App& app, ProfileOptions& o) {
         ->add_option_function<std::string>(
             "--method",
             [&o](const std::string& text) {
-                o.method = text == "scan"         ? PlanMethod::Scan
-                           : text == "projection" ? PlanMethod::Projection
-                           : text == "volumes"    ? PlanMethod::Volumes
-                                                  : PlanMethod::Auto;
+                o.method.reset();
+                if (text == "scan") o.method = PlanMethod::Scan;
+                if (text == "projection") o.method = PlanMethod::Projection;
+                if (text == "volumes") o.method = PlanMethod::Volumes;
             },
             "How plans are drawn: casters flattened onto the plane by the processor (scan) or by a "
             "device (projection), or shadow volumes; default auto: scan, or projection where "

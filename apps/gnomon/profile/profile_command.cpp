@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "arguments.hpp"
+#include "devices.hpp"
 #include "files.hpp"
 #include "profile/day_result.hpp"
 #include "profile/draw_masks.hpp"
@@ -45,6 +47,10 @@ Status check_utf8(const std::string& text, const char* what) {
                             one_line(written(json::error_handler_t::replace))));
 }
 
+PlanMethod method_of(const ProfileOptions& o) {
+    return o.method.value_or(o.backend.empty() ? PlanMethod::Scan : PlanMethod::Projection);
+}
+
 Status check_given(const ProfileOptions& o) {
     for (const Status& status :
          {need(!o.model.empty(), "a MODEL"), need(o.latitude_deg.has_value(), "--lat"),
@@ -58,7 +64,7 @@ Status check_given(const ProfileOptions& o) {
                                  check_utf8(o.receivers.value_or(""), "--receivers")}) {
         if (!status) return status;
     }
-    if (o.method == PlanMethod::Scan && !o.backend.empty()) {
+    if (method_of(o) == PlanMethod::Scan && !o.backend.empty()) {
         return fail(ErrorCode::InvalidInput,
                     fmt::format("--backend: --method scan draws on the processor and has no use "
                                 "for \"{}\".",
@@ -70,6 +76,17 @@ Status check_given(const ProfileOptions& o) {
                     "given.");
     }
     return {};
+}
+
+// None where the processor draws.
+Result<std::optional<gpu::Device>> device_of(const ProfileOptions& o) {
+    std::optional<gpu::Device> none;
+    if (method_of(o) == PlanMethod::Scan) return none;
+    auto device = create_device({.backend = o.backend});
+    if (!device) return forward_error(device);
+    if (device->caps().backend != "null") return std::optional(std::move(*device));
+    return fail(ErrorCode::InvalidInput,
+                "--backend: \"null\" draws nothing, so that nothing would cast a shadow.");
 }
 
 // All casters, and as much around them as shadows of 45 degrees are long.
@@ -111,6 +128,7 @@ Result<Study> study_of(const ProfileOptions& o, const SiteModel& site) {
     study.skip_after_sunrise_min = o.skip_after_sunrise_min;
     study.skip_before_sunset_min = o.skip_before_sunset_min;
     study.grid = *grid;
+    study.method = method_of(o);
     return study;
 }
 
@@ -275,6 +293,10 @@ Status draw(const ProfileOptions& o) {
     auto study = study_of(o, *site);
     if (!study) return forward_error(study);
     MaskSubjects subjects;
+    auto device = device_of(o);
+    if (!device) return forward_error(device);
+    subjects.device = std::move(*device);
+    if (subjects.device) study->backend = subjects.device->caps().backend;
     if (const Status added = add_subjects(o, *study, subjects); !added) return added;
     subjects.casters = std::move(site->casters);
     const auto jobs = mask_jobs(*study);

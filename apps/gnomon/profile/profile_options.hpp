@@ -15,20 +15,14 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/sun_study/steps.hpp>
 
+#include "profile/study.hpp"
+
 namespace gnomon::cli {
 
 /// Part `index` of `count`, from 1 on.
 struct Shard {
     std::uint32_t index = 1;
     std::uint32_t count = 1;
-};
-
-/// How plans are drawn. Their masks differ in cells on a shadow's very edge alone.
-enum class PlanMethod : std::uint8_t {
-    Auto,        ///< Scan; Projection where a backend is named
-    Scan,        ///< sun_study::PlanScan: on the processor
-    Projection,  ///< sun_study::PlanProjection: on a device
-    Volumes,     ///< sun_study::PlanShadows: on a device
 };
 
 struct ProfileOptions {
@@ -61,7 +55,8 @@ struct ProfileOptions {
     std::optional<Shard> shard = std::nullopt;
     std::vector<std::string> merge = {};
     std::filesystem::path out = {};
-    PlanMethod method = PlanMethod::Auto;
+    /// Left out: Scan; Projection where a backend is named.
+    std::optional<PlanMethod> method = std::nullopt;
     std::string backend = {};
     bool quiet = false;
 };

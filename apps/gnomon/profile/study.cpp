@@ -2,6 +2,7 @@
 #include "profile/study.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -12,9 +13,13 @@ namespace gnomon::cli {
 
 namespace {
 
-constexpr int study_version = 2;
+constexpr int study_version = 3;
 constexpr std::size_t most_dates = 400;
 constexpr double farthest_m = 1e12;
+constexpr std::array<std::pair<const char*, PlanMethod>, 3> methods{
+    {{"scan", PlanMethod::Scan},
+     {"projection", PlanMethod::Projection},
+     {"volumes", PlanMethod::Volumes}}};
 
 // Takes values out of an object and remembers the first that is not what it has to be.
 class StudyReader {
@@ -100,6 +105,26 @@ sun_study::Period period_of(const Study& s, const sun::Date& date) {
     return {.date = date, .from = s.from, .to = s.to, .step = s.step, .offset = s.offset};
 }
 
+nlohmann::json method_json(const Study& s) {
+    const auto* const method =
+        std::ranges::find(methods, s.method, [](const auto& m) { return m.second; });
+    nlohmann::json json{{"name", method->first}};
+    if (s.method != PlanMethod::Scan) json["backend"] = s.backend;
+    return json;
+}
+
+void read_method(StudyReader& in, Study& s) {
+    const std::string name = in.text("name");
+    const auto* const method =
+        std::ranges::find_if(methods, [&](const auto& m) { return name == m.first; });
+    if (method == methods.end()) {
+        in.refuse("\"method\" has a \"name\" that is none of scan, projection and volumes");
+        return;
+    }
+    s.method = method->second;
+    if (s.method != PlanMethod::Scan) s.backend = in.text("backend");
+}
+
 sun::Place place_of(const Study& s) {
     return {glm::radians(s.latitude_deg), glm::radians(s.longitude_deg), s.elevation_m};
 }
@@ -138,7 +163,8 @@ nlohmann::json to_json(const Study& s) {
               {"cell_m", s.grid.cell_m},
               {"columns", s.grid.columns},
               {"rows", s.grid.rows},
-              {"height_m", s.grid.height_m}}}};
+              {"height_m", s.grid.height_m}}},
+            {"method", method_json(s)}};
 }
 
 Result<Study> study_from_json(const std::string& text, const std::string& place) {
@@ -188,7 +214,10 @@ Result<Study> study_from_json(const std::string& text, const std::string& place)
     if (s.grid.cell_count() > most_cells) {
         grid.refuse(fmt::format("its grid has more than {} cells", most_cells));
     }
-    in.refuse(grid.wrong());
+    if (!json.contains("method")) return refused("it has no \"method\"");
+    StudyReader method(json.at("method"));
+    read_method(method, s);
+    for (const std::string& wrong : {grid.wrong(), method.wrong()}) in.refuse(wrong);
     if (!in.wrong().empty()) return refused(in.wrong());
     return s;
 }

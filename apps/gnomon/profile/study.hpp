@@ -26,6 +26,13 @@ inline constexpr std::uint64_t most_cells = 64'000'000;
 inline constexpr std::size_t most_masks = 1'000'000;
 inline constexpr std::uint32_t most_surface_points = 2'000'000;
 
+/// How plans are drawn. Their masks differ in cells on a shadow's very edge alone.
+enum class PlanMethod : std::uint8_t {
+    Scan,        ///< sun_study::PlanScan: on the processor
+    Projection,  ///< sun_study::PlanProjection: on a device
+    Volumes,     ///< sun_study::PlanShadows: on a device
+};
+
 struct Study {
     std::string model;       ///< its file's name, without the folder
     std::string model_hash;  ///< of all casters as they are posed
@@ -50,6 +57,8 @@ struct Study {
     std::uint32_t skip_after_sunrise_min = 0;
     std::uint32_t skip_before_sunset_min = 0;
     sun_study::PlanGrid grid;
+    PlanMethod method = PlanMethod::Scan;
+    std::string backend;  ///< of the device that draws; empty: Scan, which takes none
 };
 
 /// Numbers keep all their bits.
