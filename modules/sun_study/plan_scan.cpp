@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <tuple>
 #include <utility>
@@ -19,8 +20,10 @@ namespace {
 // How far apart two borders count as one, in cells: far more than doubles round off in a grid, so
 // that what touches leaves no crack, and far less than anybody measures.
 constexpr double slack = 1e-9;
-// Faces that the sun sees as thin as this are left out: rounding might turn them over.
+// Faces whose shadows are as thin as this, in cells, or as what a flattened vertex may be off by,
+// are left out: rounding might turn them over.
 constexpr double thinnest = 1e-8;
+constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
 // What is summed up at a time: rows of so many cells, that the sums stay near the processor.
 constexpr std::size_t cells_at_a_time = std::size_t{1} << 20U;
 
@@ -37,14 +40,24 @@ struct FaceAreas {
     std::vector<double> flat;
     std::vector<double> by_x;
     std::vector<double> by_y;
-    std::vector<double> length;  // of its longest side, in cells
+    // Its sides' shadows are no longer than across + rise |(x, y)|, in cells.
+    std::vector<double> across;
+    std::vector<double> rise;
+    double top = 0.0;  // the highest corner of all
 
     void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
         const glm::dvec3 normal = glm::cross(b - a, c - a);
         flat.push_back(normal.z);
         by_x.push_back(-normal.x);
         by_y.push_back(-normal.y);
-        length.push_back(std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)}));
+        const glm::dvec2 flat_a(a);
+        const glm::dvec2 flat_b(b);
+        const glm::dvec2 flat_c(c);
+        across.push_back(std::max({glm::distance(flat_a, flat_b), glm::distance(flat_b, flat_c),
+                                   glm::distance(flat_c, flat_a)}));
+        const auto [low, high] = std::minmax({a.z, b.z, c.z});
+        rise.push_back(high - low);
+        top = std::max(top, high);
     }
 };
 
@@ -155,11 +168,12 @@ void PlanScan::State::give_back(std::unique_ptr<Scratch> scratch) {
 void PlanScan::State::weigh(const glm::dvec2& shift, std::vector<std::int8_t>& weights) const {
     const std::size_t count = areas.flat.size();
     weights.resize(count + 1);
-    const double thin = thinnest * (1.0 + glm::length(shift));
+    const double far = glm::length(shift);
+    const double thin = thinnest + rounding * far * areas.top;
     const auto weigh_some = [&](std::size_t begin, std::size_t end, int clockwise) {
         for (std::size_t f = begin; f < end; ++f) {
             const double area = areas.flat[f] + shift.x * areas.by_x[f] + shift.y * areas.by_y[f];
-            const double least = thin * areas.length[f];
+            const double least = thin * (areas.across[f] + far * areas.rise[f]);
             const int weight = (area > least ? 1 : 0) - (area < -least ? clockwise : 0);
             weights[f] = static_cast<std::int8_t>(weight);
         }
@@ -206,6 +220,7 @@ void PlanScan::State::add_changes(const Border& border, std::int64_t first_row,
     const std::int64_t begin = std::max(row_at_or_above(border.top_v, grid.rows), first_row);
     const std::int64_t end = std::min(row_at_or_above(border.bottom_v, grid.rows), last_row);
     const std::int64_t stride = std::int64_t{grid.columns} + 1;
+    if (begin >= end) return;
     const double columns = grid.columns;
     std::int32_t* row = changes + (begin - first_row) * stride;
     auto v = static_cast<double>(begin);
