@@ -176,6 +176,13 @@ TEST(PlanScan, TakesASunOnTheHorizon) {
             const auto begin = mask.begin() + std::ptrdiff_t{row} * grid.columns;
             EXPECT_EQ(std::count(begin, begin + grid.columns, 0), dark ? grid.columns : 0) << row;
         }
+        // A level sheet that is hardly above the plane keeps its size, 60 m away.
+        const glm::dvec3 sun = sun::towards_sun(90.0 * degree, altitude * degree);
+        const PlanMask level =
+            scanned({test::caster_of(1, scene::make_plane(2.0F, 6.0F), {0.0, 0.0, 60.0 * sun.z})},
+                    grid, sun);
+        EXPECT_EQ(std::ranges::count(level, 0), 4 * 12);
+        EXPECT_EQ(level[std::size_t{grid.rows / 2} * grid.columns + 80], 0);
     }
 }
 
@@ -222,6 +229,39 @@ PlanMask traced(const std::vector<shadows::Caster>& casters, const PlanGrid& gri
         mask[i] = !is_open ? 0 : is_certain ? 1 : 2;
     }
     return mask;
+}
+
+// Two boxes with an edge in common, so that they are one component, of which the smaller is inside
+// out: where the plane cuts it, rays begin in it and leave by a face that is turned away.
+TEST(PlanScan, CastsAllOfAClosedMeshThatThePlaneCuts) {
+    scene::Mesh mesh = scene::make_box({6.0F, 8.0F, 6.0F});
+    const scene::Mesh small = scene::make_box({4.0F, 8.0F, 4.0F});
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::vec3& at : small.positions) {
+        mesh.positions.push_back(at + glm::vec3(5.0F, 0.0F, 5.0F));
+    }
+    for (std::size_t i = 0; i < small.indices.size(); i += 3) {
+        for (const std::size_t k : {0U, 2U, 1U}) {
+            mesh.indices.push_back(first + small.indices[i + k]);
+        }
+    }
+    const PlanGrid grid = must(make_grid({-12.0, -12.0}, {12.0, 12.0}, 0.5, 0.0, 4096));
+    for (const double height : {0.3, 4.2}) {  // of the middle: cut, and above
+        const std::vector<shadows::Caster> boxes{test::caster_of(1, mesh, {0.0, 0.0, height})};
+        ASSERT_EQ(boxes.front().mesh->components().size(), 1U);
+        ASSERT_TRUE(boxes.front().mesh->components().front().closed);
+        ASSERT_FALSE(boxes.front().mesh->components().front().inside_out);
+        for (const glm::dvec3& sun :
+             {sun::towards_sun(141.0 * degree, 64.0 * degree), glm::dvec3(0.0, 0.0, 1.0)}) {
+            const PlanMask mask = scanned(boxes, grid, sun);
+            const PlanMask truth = traced(boxes, grid, sun);
+            EXPECT_GT(std::ranges::count(truth, 0), 150);
+            for (std::size_t i = 0; i < mask.size(); ++i) {
+                if (truth[i] == 2) continue;
+                ASSERT_EQ(mask[i], truth[i]) << "cell " << i;
+            }
+        }
+    }
 }
 
 shadows::Caster random_caster(std::mt19937& random) {

@@ -2,8 +2,6 @@
 #include "internal/plan_triangles.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -12,6 +10,11 @@ namespace gnomon::sun_study::internal {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
+
+struct PlaneSides {
+    bool above = false;
+    bool below = false;
+};
 
 // The faces of one caster, cut at the plane, with vertices numbered anew.
 class Cutter {
@@ -28,19 +31,26 @@ public:
             points_.push_back(plan_from_world(world));
         }
         numbers_.assign(points_.size(), none);
-        weld(positions);
+    }
+
+    // Of a face: whether any of it is above the plane, and below.
+    [[nodiscard]] PlaneSides sides(const Corners& face) const {
+        PlaneSides sides;
+        for (const std::uint32_t corner : face) {
+            sides.above = sides.above || points_[corner].z > 0.0;
+            sides.below = sides.below || points_[corner].z < 0.0;
+        }
+        return sides;
     }
 
     // At most two triangles, wound as the face is.
     void cut(const Corners& face, std::vector<Corners>& out) {
         std::array<std::uint32_t, 4> polygon{};
         std::size_t count = 0;
-        bool any_above = false;
-        for (std::size_t i = 0; i < 3; ++i) any_above = any_above || points_[face[i]].z > 0.0;
-        if (!any_above) return;
+        if (!sides(face).above) return;
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t here = first_at_[face[i]];
-            const std::uint32_t next = first_at_[face[(i + 1) % 3]];
+            const std::uint32_t here = face[i];
+            const std::uint32_t next = face[(i + 1) % 3];
             const double z = points_[here].z;
             const double z_next = points_[next].z;
             if (z >= 0.0) polygon[count++] = number_of(here);
@@ -55,23 +65,6 @@ public:
 
 private:
     static constexpr std::uint32_t none = 0xFFFFFFFF;
-
-    // Files have a vertex for each of a place's normals; a shadow needs one.
-    void weld(std::span<const glm::vec3> positions) {
-        const auto place = [&](std::uint32_t i) {
-            return std::tuple(positions[i].x, positions[i].y, positions[i].z);
-        };
-        std::vector<std::uint32_t> order(positions.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-            return place(a) != place(b) ? place(a) < place(b) : a < b;
-        });
-        first_at_.resize(order.size());
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            const bool is_new = i == 0 || place(order[i]) != place(order[i - 1]);
-            first_at_[order[i]] = is_new ? order[i] : first_at_[order[i - 1]];
-        }
-    }
 
     std::uint32_t number_of(std::uint32_t point) {
         if (numbers_[point] == none) numbers_[point] = add(points_[point]);
@@ -98,7 +91,6 @@ private:
 
     std::vector<glm::dvec3>& vertices_;
     std::vector<glm::dvec3> points_;
-    std::vector<std::uint32_t> first_at_;  // by vertex: the first at the same place
     std::vector<std::uint32_t> numbers_;
     std::unordered_map<std::uint64_t, std::uint32_t> crossings_;
 };
@@ -114,11 +106,22 @@ PlanTriangles plan_triangles(std::span<const shadows::Caster> casters, const Pla
         const shadows::ShadowMesh& mesh = *caster.mesh;
         const double turns = glm::determinant(glm::dmat3(caster.world_from_local));
         Cutter cutter(caster, middle_world, triangles.vertices);
+        std::vector<PlaneSides> sides(mesh.components().size());
+        for (std::size_t f = 0; f < mesh.faces().size(); ++f) {
+            const PlaneSides of_face = cutter.sides(mesh.faces()[f]);
+            PlaneSides& all = sides[mesh.face_components()[f]];
+            all.above = all.above || of_face.above;
+            all.below = all.below || of_face.below;
+        }
         for (std::size_t f = 0; f < mesh.faces().size(); ++f) {
             if (mesh.is_degenerate(f)) continue;
-            const shadows::Component& component = mesh.components()[mesh.face_components()[f]];
-            // A pose without volume says nothing about sides; what it leaves is a sheet.
-            const bool one_sided = component.closed && turns != 0.0;
+            const std::uint32_t c = mesh.face_components()[f];
+            const shadows::Component& component = mesh.components()[c];
+            // A pose without volume says nothing about sides; what it leaves is a sheet. Where a
+            // component is cut, rays begin inside of it, and a part of it that is wound the other
+            // way, whatever all of it is, they leave through a face that is turned away.
+            const bool is_cut = sides[c].above && sides[c].below;
+            const bool one_sided = component.closed && !is_cut && turns != 0.0;
             Corners face = mesh.faces()[f];
             if (component.inside_out != (turns < 0.0)) std::swap(face[1], face[2]);
             cutter.cut(face, one_sided ? triangles.faces : two_sided);

@@ -4,9 +4,11 @@
 // Flattened onto the plane along the sun's rays, their union is the shadow (J. F. Blinn, "Me and My
 // (Fake) Shadow", IEEE Computer Graphics and Applications 8(1), 1988).
 //
-// A ray that meets a closed solid leaves it for good through a face that faces the sun; so of
-// closed components those faces suffice. Of all others, every face casts. What is below the plane
-// is cut off here, once, since where a face meets the plane does not depend on the sun.
+// A ray that begins outside of a closed solid and meets it leaves it for good through a face that
+// faces the sun; so of closed components above the plane those faces suffice. Of all others every
+// face casts: of open ones, and of those that the plane cuts, in which a ray may begin. What is
+// below the plane is cut off here, once, since where a face meets the plane does not depend on the
+// sun.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +27,7 @@ namespace gnomon::sun_study::internal {
 
 struct PlanTriangles {
     /// In plan coordinates about the grid's middle: metres, z the height above the plane, never
-    /// below 0. A caster has one at a place: faces that share an edge share its vertices, where it
-    /// was cut as well.
+    /// below 0. Faces that share an edge of the mesh share its vertices, where it was cut as well.
     std::vector<glm::dvec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> faces;
     /// So many faces, the first, cast only where they are counter-clockwise as the sun sees them.
