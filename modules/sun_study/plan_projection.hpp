@@ -6,7 +6,10 @@
 // matrix. Eight steps share a stencil buffer, a bit each, and are read back at a time.
 //
 // It is for one flat receiver. A cell is one pixel, asked about at its centre; the mask is exact
-// but for cells that a shadow's edge passes within 1/16 of a cell of the centre.
+// but for cells that a shadow's edge passes within 1/16 of a cell of the centre, as long as no
+// corner that casts, nor its shadow, is farther than 200,000 cells from the middle of the grid:
+// vertices and matrices are single precision on a device. Beyond that it grows with the distance;
+// PlanScan has no such bound.
 #pragma once
 
 #include <cstdint>
