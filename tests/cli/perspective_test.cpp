@@ -46,10 +46,13 @@ TEST(Perspective, HidesWhatIsFartherInAnyOrder) {
 }
 
 TEST(Perspective, LiftsAPatchBeforeItsFace) {
-    Perspective p = picture();
-    add_wall(p, 0.0, 1.0, red, 1e-5);
-    add_wall(p, 0.0, 3.0, green);
-    EXPECT_EQ(at_middle(p), "red");
+    // Of what is equally far, the first stays.
+    for (const double lift : {0.0, 1e-5}) {
+        Perspective p = picture();
+        add_wall(p, 0.0, 3.0, green);
+        add_wall(p, 0.0, 1.0, red, lift);
+        EXPECT_EQ(at_middle(p), lift == 0.0 ? "green" : "red");
+    }
 }
 
 TEST(Perspective, HasAPlaneThatHidesWhatIsBelow) {
