@@ -94,6 +94,18 @@ TEST_F(Profile, HasDaysWithoutSunAmongOthers) {
     EXPECT_TRUE(std::filesystem::is_regular_file(path("study/2026-12-21/hours.png")));
     EXPECT_NE(read("study/report.html").find("stays below the horizon"), std::string::npos);
 
+    // Of parts, where they are joined.
+    set("--out", "part");
+    const auto part = run(joined(arguments, {"--shard", "1/1", "--threads", "1"}));
+    EXPECT_EQ(part.exit_code, 0) << part.errors;
+    EXPECT_EQ(part.errors.find("2026-12-21"), std::string::npos) << part.errors;
+    const auto merged = run({"profile", "--out", "merged", "--merge", "part"});
+    EXPECT_EQ(merged.exit_code, 0) << merged.errors;
+    EXPECT_NE(merged.errors.find("On 2026-12-21 the sun stays below the horizon"),
+              std::string::npos)
+        << merged.errors;
+    expect_same_files("study", "merged");
+
     set("--date", "2026-12-20,2026-12-21");
     const auto refused = run(arguments);
     EXPECT_EQ(refused.exit_code, 2);
@@ -121,8 +133,21 @@ TEST_F(Profile, ShowsTheWholeSceneInPerspective) {
     run_well(profile("part2", {"--shard", "2/2"}));
     run_well(joined({"profile", "--quiet", "--out", "merged", "--merge", "part1", "part2"}, eye));
     expect_same_files("study", "merged");
-    expect_refused(joined({"profile", "--quiet", "--out", "x", "--merge", "part2", "part2"}, eye),
-                   {"--merge"});
+    // One of their copies does, if it is whole.
+    run_well(joined(profile("part2", {"--shard", "2/2"}), eye));
+    const std::string casters = read("part1/masks/casters.npy");
+    write("part1/masks/casters.npy", casters.substr(0, casters.size() / 2));
+    const Arguments again = joined({"profile", "--quiet", "--merge", "part1", "part2"}, eye);
+    run_well(joined(again, {"--out", "again"}));
+    expect_same_files("study", "again");
+    write("part2/masks/casters.npy", "");
+    expect_refused(joined(again, {"--out", "x"}), {"--eye", "casters.npy"});
+    EXPECT_FALSE(std::filesystem::exists(path("x")));
+    // With receivers as well, of which a picture could be made.
+    const Arguments walls{"--receivers", "shed"};
+    run_well(profile("walls", walls));
+    expect_refused(joined({"profile", "--quiet", "--out", "x", "--merge", "walls"}, eye),
+                   {"--eye", "casters.npy"});
     // Another study takes it away again.
     Arguments other = profile("study");
     *(std::find(other.begin(), other.end(), std::string("--step")) + 1) = "2h";

@@ -170,28 +170,48 @@ Result<Sources> find_parts(const ProfileOptions& o, const Study& study) {
                                 missing.size(), jobs->size(), missing.front()));
     }
     if (o.eye_plan) {
+        // Another's may be cut off.
         const auto has_casters = [](const std::string& folder) {
-            std::error_code error;
-            return fs::exists(fs::path(folder) / "masks" / casters_name, error);
+            const auto numbers =
+                read_all_numbers(fs::path(folder) / "masks" / casters_name, numbers_a_face);
+            return numbers.has_value() && !numbers->empty();
         };
         const auto found = std::ranges::find_if(o.merge, has_casters);
-        if (found != o.merge.end()) {
-            sources.emplace_back(casters_name, fs::path(*found) / "masks" / casters_name);
-        } else if (study.surface_points == 0) {
-            return fail(
-                ErrorCode::InvalidInput,
-                fmt::format("--eye: none of the folders has masks/{}, which a part has that "
-                            "was drawn with --eye.",
-                            casters_name));
+        if (found == o.merge.end()) {
+            return fail(ErrorCode::InvalidInput,
+                        fmt::format("--eye: none of the folders has a whole masks/{}, which a part "
+                                    "has that was drawn with --eye; without it there is no "
+                                    "scene.png.",
+                                    casters_name));
         }
+        sources.emplace_back(casters_name, fs::path(*found) / "masks" / casters_name);
     }
     if (study.surface_points > 0) {
-        const fs::path points = fs::path(o.merge.front()) / "masks" / points_name;
-        const auto numbers = read_numbers(points, numbers_a_point, study.surface_points);
-        if (!numbers) return forward_error(numbers);
-        sources.emplace_back(points_name, points);
+        const auto has_points = [&](const std::string& folder) {
+            return read_numbers(fs::path(folder) / "masks" / points_name, numbers_a_point,
+                                study.surface_points)
+                .has_value();
+        };
+        const auto found = std::ranges::find_if(o.merge, has_points);
+        if (found == o.merge.end()) {
+            return fail(
+                ErrorCode::InvalidInput,
+                fmt::format("--merge: none of the folders has a whole masks/{}.", points_name));
+        }
+        sources.emplace_back(points_name, fs::path(*found) / "masks" / points_name);
     }
     return sources;
+}
+
+void tell_days_without_sun(const Study& study) {
+    constexpr std::size_t most = 3;
+    const std::vector<std::string> days = days_without_sun(study);
+    for (std::size_t i = 0; i < std::min(days.size(), most); ++i) {
+        fmt::print(stderr, "{} It has no hours.\n", days[i]);
+    }
+    if (days.size() > most) {
+        fmt::print(stderr, "So it is on {} more dates.\n", days.size() - most);
+    }
 }
 
 Status merge(const ProfileOptions& o) {
@@ -209,6 +229,7 @@ Status merge(const ProfileOptions& o) {
     }
     const auto sources = find_parts(o, *study);
     if (!sources) return forward_error(sources);
+    if (!o.quiet) tell_days_without_sun(*study);
     if (const Status ready = prepare_folder(*study, o.out); !ready) return ready;
     for (const auto& [name, path] : *sources) {
         const Status taken = take_over(path, o.out / "masks" / name);
@@ -275,17 +296,6 @@ Status begin_folder(const Study& study, const MaskSubjects& subjects, const Prof
     return files.commit();
 }
 
-void tell_days_without_sun(const Study& study) {
-    constexpr std::size_t most = 3;
-    const std::vector<std::string> days = days_without_sun(study);
-    for (std::size_t i = 0; i < std::min(days.size(), most); ++i) {
-        fmt::print(stderr, "{} It has no hours.\n", days[i]);
-    }
-    if (days.size() > most) {
-        fmt::print(stderr, "So it is on {} more dates.\n", days.size() - most);
-    }
-}
-
 Status draw(const ProfileOptions& o) {
     if (const Status given = check_given(o); !given) return given;
     auto site = load_site(o, o.model, o.casters, "--casters");
@@ -312,7 +322,8 @@ Status draw(const ProfileOptions& o) {
                        study->grid.height_m, above_lowest_m);
         }
     }
-    if (!o.quiet) tell_days_without_sun(*study);
+    // Of parts, it is said once: where they are joined.
+    if (!o.quiet && !o.shard) tell_days_without_sun(*study);
     const Status drawn =
         draw_masks(*study, *jobs, subjects, o, o.out / "masks", *state == FolderState::Same,
                    [&] { return begin_folder(*study, subjects, o); });
