@@ -447,7 +447,8 @@ TEST_F(Profile, RunsUnderGnuParallel) {
     run_well(profile("whole"));
     std::string command =
         "cd '" + path("").string() + "' && parallel --will-cite -j2 " + std::string(GNOMON_PROGRAM);
-    for (const std::string& word : profile("part{}", {"--shard", "{}/4"})) command += " " + word;
+    for (const std::string& word : profile("part{}", {"--shard", "{}/4", "--threads", "1"}))
+        command += " " + word;
     command += " ::: 1 2 3 4 2> parallel.log";
     ASSERT_EQ(std::system(command.c_str()), 0) << read("parallel.log");
     run_well(

@@ -11,11 +11,13 @@
 
 #include <fmt/format.h>
 
+#include <gnomon/machine/machine.hpp>
 #include <gnomon/sun_study/plan_projection.hpp>
 #include <gnomon/sun_study/plan_scan.hpp>
 #include <gnomon/sun_study/plan_shadows.hpp>
 
 #include "files.hpp"
+#include "profile/batch_size.hpp"
 #include "profile/mask_files.hpp"
 
 namespace gnomon::cli {
@@ -75,7 +77,12 @@ private:
 // Draws plans, or asks about points; whatever it needs is made when it is first needed.
 class MaskMaker {
 public:
-    MaskMaker(const Study& study, MaskSubjects& subjects) : study_(study), subjects_(subjects) {}
+    MaskMaker(const Study& study, MaskSubjects& subjects, std::uint32_t threads)
+        : study_(study),
+          subjects_(subjects),
+          threads_(threads > 0 ? threads : machine::usable_cores()),
+          jobs_(shadows::thread_jobs(threads_)),
+          plan_batch_(side_by_side()) {}
 
     // Of one kind.
     Result<std::vector<sun_study::PlanMask>> masks(MaskKind kind,
@@ -105,17 +112,30 @@ public:
         return {};
     }
 
-    // Masks that are best asked for together: enough for all threads and for a device that is never
-    // waited for long; where each takes long, few, since what is cut off is drawn again.
-    [[nodiscard]] std::size_t batch_size(MaskKind kind) const {
-        return kind == MaskKind::Surface || study_.method == PlanMethod::Volumes ? 4 : 64;
+    // Of masks of this kind.
+    [[nodiscard]] BatchSize& batch_size(MaskKind kind) {
+        return kind == MaskKind::Surface ? surface_batch_ : plan_batch_;
     }
     [[nodiscard]] const shadows::Jobs& jobs() const { return jobs_; }
 
 private:
+    // So many plans are drawn at once.
+    [[nodiscard]] std::size_t side_by_side() const {
+        constexpr std::size_t bits_of_a_stencil_buffer = 8;
+        switch (study_.method) {
+            case PlanMethod::Scan: return threads_;
+            case PlanMethod::Projection: return bits_of_a_stencil_buffer;
+            case PlanMethod::Volumes: break;
+        }
+        return 1;
+    }
+
     const Study& study_;
     MaskSubjects& subjects_;
-    shadows::Jobs jobs_ = shadows::thread_jobs();
+    std::uint32_t threads_;
+    shadows::Jobs jobs_;
+    BatchSize plan_batch_;
+    BatchSize surface_batch_;  // one at a time, on all threads
     std::optional<PlanDrawer> plan_;
     std::optional<PlanDrawer> before_;
     std::optional<shadows::ShadowQueries> queries_;
@@ -228,7 +248,7 @@ Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs, MaskSubj
         }
     }
     if (missing.empty()) return before_writing();
-    MaskMaker maker(study, subjects);
+    MaskMaker maker(study, subjects, options.threads);
     for (const MaskJob* job : missing) {
         if (const Status ready = maker.make_ready(job->kind); !ready) return ready;
     }
@@ -236,12 +256,15 @@ Status draw_masks(const Study& study, const std::vector<MaskJob>& jobs, MaskSubj
     const auto start = MaskClock::now();
     for (std::size_t first = 0; first < missing.size();) {
         const std::span left = std::span<const MaskJob* const>(missing).subspan(first);
-        const std::span batch =
-            left.first(batch_of(study, left, maker.batch_size(left.front()->kind)));
+        BatchSize& size = maker.batch_size(left.front()->kind);
+        const std::span batch = left.first(batch_of(study, left, size.next()));
         std::vector<glm::dvec3> suns;
         for (const MaskJob* job : batch) suns.push_back(job->towards_sun);
+        const auto batch_start = MaskClock::now();
         const auto masks = maker.masks(batch.front()->kind, suns);
         if (!masks) return forward_error(masks);
+        const std::chrono::duration<double> taken = MaskClock::now() - batch_start;
+        size.took(batch.size(), taken.count());
         if (batch.front()->is_open_mask && std::ranges::count(masks->front(), 1) == 0) {
             return fail(ErrorCode::InvalidInput,
                         fmt::format("--plane: something lies above every cell of the grid at {:g} "

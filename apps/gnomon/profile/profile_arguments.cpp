@@ -296,6 +296,11 @@ const CLI::App* add_profile(CLI::App& app, ProfileOptions& o) {
         ->add_option("--backend", o.backend,
                      fmt::format("One of {}", fmt::join(backend_names(), ", ")))
         ->check(CLI::IsMember(backend_names()));
+    profile
+        ->add_option("--threads", o.threads,
+                     "Of the processor, to draw on; default: as many as the process may run on")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
     profile->add_flag("--quiet", o.quiet, "No notes and no progress line");
     profile->final_callback([profile, &o] {
         if (!o.merge.empty()) check_merge(*profile);

@@ -58,11 +58,12 @@ struct ProfileOptions {
     /// Left out: Scan; Projection where a backend is named.
     std::optional<PlanMethod> method = std::nullopt;
     std::string backend = {};
+    std::uint32_t threads = 0;  ///< 0: as many as the process may run on
     bool quiet = false;
 };
 
-/// Runs it. What is drawn lies in files as soon as it is, and is taken over from there by a later
-/// run of the same study.
+/// Runs it. What is drawn lies in files some two seconds later, and is taken over from there by a
+/// later run of the same study.
 [[nodiscard]] Status run_profile(const ProfileOptions& options);
 
 }  // namespace gnomon::cli
