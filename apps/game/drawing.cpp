@@ -54,7 +54,7 @@ Result<shadows::ShadowSystem> make_shadow_system(const DrawingOptions& options) 
                                           .receivers = shadows::Receivers::Submitted});
 }
 
-std::size_t place_of(std::span<const MeterLight> lights, std::uint64_t key) {
+std::size_t number_of(std::span<const MeterLight> lights, std::uint64_t key) {
     return static_cast<std::size_t>(std::ranges::count_if(
         lights, [&](const MeterLight& light) { return light.shadow.key < key; }));
 }
@@ -110,7 +110,7 @@ Status Drawing::draw(Stage& stage, const Level& level, const shadows::View& view
     std::function<Status(std::size_t)> after_drawn;
     if (after_light) {
         after_drawn = [&](std::size_t i) {
-            return after_light(place_of(stage.lights(), list_->lights[i].light));
+            return after_light(number_of(stage.lights(), list_->lights[i].light));
         };
     }
     const Mood& mood = level.mood;
