@@ -18,7 +18,7 @@ namespace gnomon::sun_study {
 
 namespace {
 
-constexpr std::size_t steps_a_buffer = 8;     // bits of a stencil buffer
+constexpr std::size_t steps_a_buffer = PlanProjection::steps_a_buffer;
 constexpr std::size_t buffers = 2;            // one is drawn while another is read
 constexpr std::uint32_t matrix_stride = 256;  // WebGPU's largest alignment
 constexpr std::uint32_t dark = 0xFF;

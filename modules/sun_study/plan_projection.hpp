@@ -12,6 +12,7 @@
 // PlanScan has no such bound.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -35,6 +36,9 @@ struct PlanProjectionOptions {
 
 class PlanProjection {
 public:
+    /// Drawn before a buffer is read: the bits of its stencil.
+    static constexpr std::size_t steps_a_buffer = 8;
+
     /// As PlanShadows::create() has it.
     [[nodiscard]] static Result<PlanProjection> create(gpu::Device& device,
                                                        std::span<const shadows::Caster> casters,
@@ -44,8 +48,8 @@ public:
     PlanProjection& operator=(PlanProjection&&) noexcept;
     ~PlanProjection();
 
-    /// A mask a sun, as PlanShadows::lit() has it. Multiples of 16 suns suit it best: two buffers
-    /// of eight, of which one is read while the other is drawn.
+    /// A mask a sun, as PlanShadows::lit() has it. Multiples of twice steps_a_buffer suit it best:
+    /// of two buffers one is read while the other is drawn.
     [[nodiscard]] Result<std::vector<PlanMask>> lit(std::span<const glm::dvec3> towards_suns_plan);
 
 private:

@@ -121,10 +121,9 @@ public:
 private:
     // So many plans are drawn at once.
     [[nodiscard]] std::size_t side_by_side() const {
-        constexpr std::size_t bits_of_a_stencil_buffer = 8;
         switch (study_.method) {
             case PlanMethod::Scan: return threads_;
-            case PlanMethod::Projection: return bits_of_a_stencil_buffer;
+            case PlanMethod::Projection: return sun_study::PlanProjection::steps_a_buffer;
             case PlanMethod::Volumes: break;
         }
         return 1;
@@ -141,8 +140,9 @@ private:
     std::optional<shadows::ShadowQueries> queries_;
 };
 
-// How many of the jobs, from the first on, are drawn, packed and written together: of one kind, the
-// roofs alone, and not more than takes little memory.
+// How many of the jobs, from the first on, are drawn, packed and written together. One kind has one
+// drawer; what is open to the sky comes alone, since the plane may be refused by it before anything
+// else is drawn; and all wait in memory to be written.
 std::size_t batch_of(const Study& study, std::span<const MaskJob* const> jobs, std::size_t most) {
     constexpr std::size_t most_bytes = std::size_t{1} << 28U;
     const auto [columns, rows] = shape_of(study, jobs.front()->kind);

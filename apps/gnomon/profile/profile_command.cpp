@@ -79,7 +79,7 @@ Status check_given(const ProfileOptions& o) {
 }
 
 // None where the processor draws.
-Result<std::optional<gpu::Device>> device_of(const ProfileOptions& o) {
+Result<std::optional<gpu::Device>> drawing_device(const ProfileOptions& o) {
     std::optional<gpu::Device> none;
     if (method_of(o) == PlanMethod::Scan) return none;
     auto device = create_device({.backend = o.backend});
@@ -303,7 +303,7 @@ Status draw(const ProfileOptions& o) {
     auto study = study_of(o, *site);
     if (!study) return forward_error(study);
     MaskSubjects subjects;
-    auto device = device_of(o);
+    auto device = drawing_device(o);
     if (!device) return forward_error(device);
     subjects.device = std::move(*device);
     if (subjects.device) study->backend = subjects.device->caps().backend;
