@@ -64,12 +64,19 @@ foreach(shader IN LISTS SHADERS)
     set(spirv ${folder}/${NAME}.${file}.spv)
     set(glsl ${folder}/${NAME}.${file}.gl.glsl)
     # y is negated at the end of vertex stages, for both backends: they clip the very same coordinates, to the last bit.
+    # Vulkan may set the constant to 1 and let the viewport turn y up (vk::YUp).
     set(compiled ${shader})
     if(file MATCHES "\\.vert$")
       file(READ ${shader} stage)
       string(REPLACE "void main()" "void stage_main()" stage "${stage}")
       set(compiled ${folder}/${NAME}.${file})
-      file(WRITE ${compiled} "${stage}\nvoid main() {\n    stage_main();\n    gl_Position.y = -gl_Position.y;\n}\n")
+      file(WRITE ${compiled} "${stage}
+layout(constant_id = 100) const float y_sign = -1.0;
+void main() {
+    stage_main();
+    gl_Position.y = y_sign * gl_Position.y;
+}
+")
     endif()
     execute_process(COMMAND ${GLSLANG} -V --target-env vulkan1.1 ${INCLUDES} -o ${spirv} ${compiled}
       RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)

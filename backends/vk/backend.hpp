@@ -35,17 +35,27 @@ struct Window {
     std::function<Extent()> framebuffer_size;
 };
 
+/// What turns y up. Pictures are the same but for the last bits of vertices that clipping makes.
+enum class YUp : std::uint8_t {
+    VertexStages,  ///< they negate it, so that Vulkan clips the very coordinates that OpenGL does
+    /// A viewport of negative height, as browsers draw WebGPU: masks then equal those of
+    /// gnomon::webgpu on the same driver. Only for vertex stages that gnomon's build compiled,
+    /// which take their sign from specialization constant 100.
+    Viewport,
+};
+
 /// What a backend is made with.
 struct BackendOptions {
     std::string adapter =
         {};  ///< part of the wanted device's name; default: discrete, integrated, then software
     bool validation = false;  ///< the Khronos validation layer; its messages go to the sink
-    /// Treated as absent, for tests of fallbacks: "depthClamp", "depthBiasClamp",
+    /// Treated as absent, for tests of fallbacks: "depthClamp", "depthBiasClamp", "depthBounds",
     /// "independentBlend", "occlusionQueryPrecise", "sampleRate", "timestamps",
     /// "D32_SFLOAT_S8_UINT", "D24_UNORM_S8_UINT", "sampledStencil".
     std::vector<std::string> disabled_features = {};
     gpu::MessageSink message_sink = {};           ///< gets what the driver says; empty: it is lost
     std::optional<Window> window = std::nullopt;  ///< to present in; none: headless
+    YUp y_up = YUp::VertexStages;                 ///< as OpenGL clips, or as browsers do
 };
 
 /// Fails with ErrorCode::Unsupported, naming what is missing, or with ErrorCode::InvalidInput when

@@ -98,10 +98,13 @@ void CommandRecorder::visit(const gpu::cmd::SetBlendConstant& command) {
 }
 
 void CommandRecorder::visit(const gpu::cmd::SetViewport& command) {
-    // Vertex stages negate y, which turns it up, as WebGPU has it. A negative height would draw the
-    // same but clip mirrored triangles: other planes first, hence other last bits than on OpenGL.
-    const VkViewport viewport{command.x,      command.y,         command.width,
-                              command.height, command.min_depth, command.max_depth};
+    // Either draws the same, but mirrored triangles meet the clip planes in another order: a
+    // viewport of negative height makes other last bits than OpenGL.
+    const bool by_viewport = device_.y_up == YUp::Viewport;
+    const VkViewport viewport{
+        command.x,         by_viewport ? command.y + command.height : command.y,
+        command.width,     by_viewport ? -command.height : command.height,
+        command.min_depth, command.max_depth};
     device_.fn.CmdSetViewport(out_, 0, 1, &viewport);
 }
 

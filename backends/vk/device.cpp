@@ -14,6 +14,7 @@ namespace gnomon::vk {
 
 Result<std::unique_ptr<Device>> Device::create(const BackendOptions& options) {
     std::unique_ptr<Device> self{new Device};
+    self->y_up = options.y_up;
     Result<std::unique_ptr<Instance>> instance = Instance::create(options);
     if (!instance) {
         return forward_error(instance);

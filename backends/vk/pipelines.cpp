@@ -23,6 +23,12 @@ VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShaderModule 
     return info;
 }
 
+/// Of the constant that the build appends to vertex stages: what they multiply y by.
+constexpr std::uint32_t y_sign_id = 100;
+constexpr float y_kept = 1.0F;
+constexpr VkSpecializationMapEntry y_sign_entry{y_sign_id, 0, sizeof y_kept};
+constexpr VkSpecializationInfo keep_y{1, &y_sign_entry, sizeof y_kept, &y_kept};
+
 struct VertexInput {
     std::vector<VkVertexInputBindingDescription> bindings;
     std::vector<VkVertexInputAttributeDescription> attributes;
@@ -232,9 +238,12 @@ Result<Pipeline> PipelineMaker::make(const gpu::RenderPipelineDesc& desc,
         return forward_error(render_pass);
     }
 
-    const std::array<VkPipelineShaderStageCreateInfo, 2> stages{
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{
         stage(VK_SHADER_STAGE_VERTEX_BIT, parts.vertex),
         stage(VK_SHADER_STAGE_FRAGMENT_BIT, parts.fragment)};
+    if (device_.y_up == YUp::Viewport) {
+        stages[0].pSpecializationInfo = &keep_y;
+    }
     const VertexInput input = vertex_input(desc);
     VkPipelineVertexInputStateCreateInfo vertex{};
     vertex.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;

@@ -72,6 +72,9 @@ DeviceCase vk_case(const std::string& adapter) {
                 options.adapter = adapter;
                 options.validation = true;
                 options.message_sink = std::move(sink);
+                if (std::getenv("GNOMON_TEST_Y_UP_BY_VIEWPORT") != nullptr) {
+                    options.y_up = vk::YUp::Viewport;
+                }
                 return vk::create_backend(options);
             }};
 }

@@ -6,6 +6,7 @@
 // set, the Vulkan adapter with that in its name is the only device that draws: another rasteriser,
 // whose masks differ from Mesa's within the band. Where GNOMON_TEST_GL is "egl", OpenGL is drawn
 // with through EGL alone, on all stencil paths: a graphics card's, beside its Vulkan. Where
+// GNOMON_TEST_Y_UP_BY_VIEWPORT is set, Vulkan draws as browsers do (vk::YUp::Viewport). Where
 // GNOMON_TEST_SKELETON is set, the backend of examples/09_write_a_backend.cpp is tested instead, in
 // front of one OpenGL, Vulkan and the null device.
 #pragma once

@@ -3,21 +3,18 @@
 // What a browser drew (masks.cpp), held against backends/vk on the same rasteriser and against the
 // truth. The file is named by GNOMON_WEB_MASKS; `make web-test` makes it.
 //
-// The two are not equal to the last byte, for two reasons. Chromium draws on Vulkan with viewports
-// of negative height, and backends/vk negates y in its vertex stages instead
-// (docs/architecture.md): triangles that are clipped above and below meet the planes in the other
-// order, and their new vertices differ in last bits. With backends/vk changed to draw as Chromium
-// does, depth was equal to the last bit in all rows. And what remains in masks then, 20 bytes of
-// all, is no matter of how they are drawn; the suspicion is the order of a mesh's faces, which the
-// C++ libraries' std::nth_element leave differently, and with it the diagonals of side quads. The
-// limits below are what was seen, and are not to grow.
+// Masks and depth are equal to the last bit. For that, backends/vk draws as Chromium does:
+// viewports of negative height turn y up (vk::YUp::Viewport), and there are no depth bounds, which
+// WebGPU does not have and which may change pixels within the band along a shadow's edge.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include <gnomon/vk/backend.hpp>
 
 #include "tests/rows/picture.hpp"
 #include "tests/support/devices.hpp"
@@ -29,26 +26,25 @@ namespace {
 
 /// SwiftShader's, as tests/hard_cases has it.
 constexpr double band_px = 1.0 / 8.0;
-/// Of the 76,800 bytes of a mask.
-constexpr std::size_t most_bytes = 4;
-constexpr double most_depth = 1e-4;  ///< of a depth, relative to it
-/// Samples outside of the band that are wrong in the browser and not by Vulkan, of all lights: at
-/// one sample a pixel, and at four, where SwiftShader itself is less exact.
-constexpr std::uint64_t most_wrong = 1;
-constexpr std::uint64_t most_wrong_of_four = 8;
+/// Pixels outside of the band that SwiftShader draws wrong at one sample, in the browser as by
+/// Vulkan. It snaps vertices to a sixteenth of a pixel; a band twice as wide leaves the first and
+/// the last.
+const std::map<std::string_view, std::uint64_t> known_wrong = {{"pillars_two_lights", 1},
+                                                               {"still_life_three_lights", 1},
+                                                               {"off_axis", 3},
+                                                               {"gaps_under_a_sun_and_a_lamp", 1}};
+/// At four samples it is less exact, by whichever way it is told to draw: of those judged.
+constexpr double most_wrong_of_four = 0.0025;
 
-double largest_difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
-    double largest = a.size() == b.size() ? 0.0 : 1.0;
-    for (std::size_t i = 0; i + 4 <= std::min(a.size(), b.size()); i += 4) {
-        float x = 0.0F;
-        float y = 0.0F;
-        std::memcpy(&x, &a[i], 4);
-        std::memcpy(&y, &b[i], 4);
-        if (x == y) continue;
-        const double scale = std::max(std::abs(double{x}), std::abs(double{y}));
-        largest = std::max(largest, std::abs(double{x} - double{y}) / scale);
-    }
-    return largest;
+/// Chromium draws on Vulkan with viewports of negative height.
+DeviceCase as_browsers_draw() {
+    return {.name = "vk", .draws = true, .create_backend = [](gpu::MessageSink sink) {
+                return vk::create_backend({.adapter = "SwiftShader",
+                                           .validation = true,
+                                           .disabled_features = {"depthBounds"},
+                                           .message_sink = std::move(sink),
+                                           .y_up = vk::YUp::Viewport});
+            }};
 }
 
 class WebMasks : public testing::TestWithParam<Row> {
@@ -63,7 +59,7 @@ protected:
             if (masks.row == GetParam().name) of_row_.push_back(&masks);
         }
         ASSERT_EQ(of_row_.size(), 2U) << "the browser drew it at one sample and at four";
-        const auto device = shared_device(drawing_devices().front());
+        const auto device = shared_device(as_browsers_draw());
         if (!device) GTEST_SKIP() << "SwiftShader: " << device.error().message;
         device_ = &(*device)->device;
         if (rasteriser_of(*device_) != "SwiftShader") {
@@ -81,10 +77,10 @@ protected:
     gpu::Device* device_ = nullptr;
 };
 
-TEST_P(WebMasks, are_those_of_vulkan_but_for_single_bytes) {
+TEST_P(WebMasks, are_those_of_vulkan_to_the_last_bit) {
     for (const RowMasks* web : of_row_) {
         const RowMasks native = by_vulkan(*web);
-        EXPECT_LE(largest_difference(web->depth, native.depth), most_depth);
+        EXPECT_EQ(differing_bytes(web->depth, native.depth), 0U) << "depth";
         ASSERT_EQ(web->masks.size(), native.masks.size());
         for (std::size_t light = 0; light < native.masks.size(); ++light) {
             ASSERT_EQ(web->masks[light].size(), web->samples);
@@ -92,37 +88,36 @@ TEST_P(WebMasks, are_those_of_vulkan_but_for_single_bytes) {
                 const auto& actual = web->masks[light][sample];
                 const auto& expected = native.masks[light][sample];
                 ASSERT_EQ(actual.size(), std::size_t{row_width} * row_height);
-                const std::size_t wrong = differing_bytes(actual, expected);
-                if (wrong > 0) {
-                    std::printf("%s, light %zu, sample %zu of %u: %zu bytes differ\n",
-                                GetParam().name.c_str(), light, sample, web->samples, wrong);
-                }
-                EXPECT_LE(wrong, most_bytes) << "light " << light << ", sample " << sample << " of "
-                                             << web->samples << "; see "
-                                             << save_difference("web." + GetParam().name, row_width,
-                                                                row_height, actual, expected);
+                EXPECT_EQ(differing_bytes(actual, expected), 0U)
+                    << "light " << light << ", sample " << sample << " of " << web->samples
+                    << "; see "
+                    << save_difference("web." + GetParam().name, row_width, row_height, actual,
+                                       expected);
             }
         }
     }
 }
 
-TEST_P(WebMasks, are_as_right_as_those_of_vulkan) {
+TEST_P(WebMasks, are_right) {
     for (const RowMasks* web : of_row_) {
         const Traced traced = trace_lights(
             setting_as_drawn(GetParam(), *web),
             {.width = row_width, .height = row_height, .band_px = band_px}, web->samples);
         const truth::Judgement judgement = judge_lights(traced, web->masks);
-        const truth::Judgement native = judge_lights(traced, by_vulkan(*web).masks);
-        std::printf("%s at %u: of %llu judged wrong in the browser %llu, by Vulkan %llu\n",
-                    GetParam().name.c_str(), web->samples,
-                    static_cast<unsigned long long>(judgement.judged()),
-                    static_cast<unsigned long long>(judgement.wrong()),
-                    static_cast<unsigned long long>(native.wrong()));
+        std::printf("%s at %u: of %llu judged %llu are wrong\n", GetParam().name.c_str(),
+                    web->samples, static_cast<unsigned long long>(judgement.judged()),
+                    static_cast<unsigned long long>(judgement.wrong()));
         EXPECT_GT(judgement.shadowed, 0U);
         EXPECT_GT(judgement.lit, 0U);
-        EXPECT_LE(judgement.wrong(),
-                  native.wrong() + (web->samples == 1 ? most_wrong : most_wrong_of_four))
-            << wrong_places(judgement, row_width);
+        if (web->samples == 1) {
+            const auto known = known_wrong.find(GetParam().name);
+            EXPECT_EQ(judgement.wrong(), known == known_wrong.end() ? 0U : known->second)
+                << wrong_places(judgement, row_width);
+        } else {
+            EXPECT_LE(static_cast<double>(judgement.wrong()),
+                      most_wrong_of_four * static_cast<double>(judgement.judged()))
+                << wrong_places(judgement, row_width);
+        }
     }
 }
 

@@ -24,6 +24,7 @@ public:
     DeviceFunctions fn;
     VkDevice handle = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
+    YUp y_up = YUp::VertexStages;
 
     [[nodiscard]] bool is_adopted() const { return !owned_; }
 
