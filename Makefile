@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build play demo test soak web web-serve web-test bench peers savings report docs package install format tidy clean FORCE
+.PHONY: help setup build play demo test soak web web-serve web-test web-bench bench peers savings report docs package install format tidy clean FORCE
 
 help: ## this list
 	@echo "gnomon: exact hard shadows. Targets:"
@@ -75,6 +75,16 @@ web-test: build/web/build.ninja build/build.ninja ## the tests in a real browser
 	@ctest --preset web
 	@cmake --build build --target test_web_masks
 	@GNOMON_WEB_MASKS=$(CURDIR)/build/web/masks.bin ctest --test-dir build -R '^web_masks$$' --output-on-failure
+
+# Rounds of the comparison of frames in a browser with native ones.
+WEB_ROUNDS ?= 7
+
+web-bench: web build ## frames in a browser against native ones, and the page's size: bench/results/web.json and its tables
+	@cmake --build build/web --target gnomon-frame-times
+	@cmake --build build --target gnomon-frame-times
+	@bench/web/gnomon-web-frames --program build/bin/gnomon-frame-times --web build/web/bin --site build/web/site \
+		--rounds $(WEB_ROUNDS) --out bench/results/web.json
+	@scripts/performance-tables --web bench/results/web.json --document docs/performance.md
 
 # How long the strategies are compared; all the rest takes some minutes more.
 BENCH_SECONDS ?= 240

@@ -31,6 +31,9 @@ export async function serve(folders, port = 0) {
             'Content-Type': types[path.extname(file)] ?? 'application/octet-stream',
             'Content-Length': stat.size,
             'Cache-Control': 'no-cache',
+            // Isolated pages have clocks of 5 microseconds instead of 100.
+            'Cross-Origin-Opener-Policy': 'same-origin',
+            'Cross-Origin-Embedder-Policy': 'require-corp',
         });
         createReadStream(file).pipe(response);
     });
