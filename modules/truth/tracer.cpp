@@ -26,7 +26,8 @@ Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 Tracer::~Tracer() = default;
 
-Result<Tracer> Tracer::build(std::span<const Instance> instances, const glm::dvec3& origin) try {
+Result<Tracer> Tracer::build(std::span<const Instance> instances, const glm::dvec3& origin,
+                             TreeBuilder builder) try {
     Result<internal::Soup> soup = internal::make_soup(instances, origin);
     if (!soup) return forward_error(soup);
     std::vector<std::uint32_t> receivers;
@@ -35,9 +36,9 @@ Result<Tracer> Tracer::build(std::span<const Instance> instances, const glm::dve
         if (soup->triangles[i].receives) receivers.push_back(i);
         if (soup->triangles[i].casts) casters.push_back(i);
     }
-    auto receiver_tree = internal::TriangleTree::build(soup->triangles, std::move(receivers));
+    auto receiver_tree = internal::TriangleTree::build(soup->triangles, receivers, builder);
     if (!receiver_tree) return forward_error(receiver_tree);
-    auto caster_tree = internal::TriangleTree::build(soup->triangles, std::move(casters));
+    auto caster_tree = internal::TriangleTree::build(soup->triangles, casters, builder);
     if (!caster_tree) return forward_error(caster_tree);
     internal::CasterEdges edges(*soup);
     return Tracer(std::make_unique<State>(State{
@@ -49,8 +50,10 @@ Result<Tracer> Tracer::build(std::span<const Instance> instances, const glm::dve
 
 Picture Tracer::trace(const shadows::View& view, const shadows::Light& light,
                       const Options& options) const {
-    Picture picture{.width = options.width, .height = options.height, .verdicts = {}};
-    picture.verdicts.resize(std::size_t{options.width} * options.height, Verdict::Unjudged);
+    const std::uint32_t first_row = std::min(options.first_row, options.height);
+    const std::uint32_t rows = std::min(options.rows, options.height - first_row);
+    Picture picture{.width = options.width, .height = rows, .verdicts = {}};
+    picture.verdicts.resize(std::size_t{options.width} * rows, Verdict::Unjudged);
     picture.centres = picture.verdicts;
 
     const internal::Camera camera = internal::Camera::of(view, state_->origin);
@@ -68,10 +71,10 @@ Picture Tracer::trace(const shadows::View& view, const shadows::Light& light,
     std::atomic<std::uint32_t> next_row{0};
     const auto work = [&] {
         internal::PixelJudge judge(state_->world, camera, light_relative, range_m);
-        for (std::uint32_t y = next_row++; y < options.height; y = next_row++) {
+        for (std::uint32_t y = next_row++; y < rows; y = next_row++) {
             for (std::uint32_t x = 0; x < options.width; ++x) {
                 const glm::dvec2 place =
-                    (glm::dvec2(x, y) + options.sample_position) * ndc_per_pixel;
+                    (glm::dvec2(x, first_row + y) + options.sample_position) * ndc_per_pixel;
                 const glm::dvec2 ndc(place.x - 1.0, 1.0 - place.y);
                 const std::size_t pixel = std::size_t{y} * options.width + x;
                 const Verdict verdict = judge.verdict(camera.beam(ndc - band, ndc + band));
@@ -84,10 +87,14 @@ Picture Tracer::trace(const shadows::View& view, const shadows::Light& light,
             }
         }
     };
+#ifdef __EMSCRIPTEN__
+    constexpr unsigned threads = 1;  // a page that wants more has more instances
+#else
+    const unsigned threads = std::thread::hardware_concurrency();
+#endif
     std::vector<std::thread> helpers;
     try {
-        for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
-            helpers.emplace_back(work);
+        for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(work);
     } catch (const std::system_error&) {
         // No more threads to be had: those that run, and this one, do all the rows.
     }

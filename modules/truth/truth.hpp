@@ -55,8 +55,11 @@ struct Instance {
 
 /// What is traced.
 struct Options {
-    std::uint32_t width = 0;      ///< pixels
-    std::uint32_t height = 0;     ///< pixels
+    std::uint32_t width = 0;   ///< of the whole picture, in pixels
+    std::uint32_t height = 0;  ///< of the whole picture, in pixels
+    /// Rows that are traced, from this one on: for who wants to say how far it is, or to stop.
+    std::uint32_t first_row = 0;
+    std::uint32_t rows = ~0U;     ///< at most; those that there are
     double band_px = 1.0 / 16.0;  ///< at least 1/1000 is used
     /// Which places inside a pixel are judged: (0.5, 0.5) for the centre; a sample's place for
     /// MSAA.
@@ -75,7 +78,7 @@ enum class Verdict : std::uint8_t {
 /// The truth for one light: a verdict a pixel, row 0 on top.
 struct Picture {
     std::uint32_t width = 0;        ///< pixels
-    std::uint32_t height = 0;       ///< pixels
+    std::uint32_t height = 0;       ///< pixels: rows that were traced
     std::vector<Verdict> verdicts;  ///< of each pixel
     /// What is true of the pixels' centres alone, within 1/1000 pixel: the verdict, but where that
     /// is Band. Band here: the answer changes at the very centre, or single precision cannot tell.
@@ -130,16 +133,23 @@ struct Judgement {
     Judgement& operator+=(const Judgement& other);
 };
 
+/// Who builds the trees that beams walk through. Verdicts are the same.
+enum class TreeBuilder : std::uint8_t {
+    Best,   ///< Embree; in builds by Emscripten, which have none, as Plain
+    Plain,  ///< our own, on one thread
+};
+
 /// Casters and receivers, ready to be traced. Immutable: many threads may trace.
 class Tracer {
 public:
     /// `origin`: a point near the camera; everything is traced relative to it, so that scenes far
     /// from the world's origin lose nothing. Fails with ErrorCode::InvalidInput for a position that
     /// is not finite or beyond 1e18 m in the world, or an index out of range, with OutOfMemory or
-    /// Internal when Embree, which builds the search trees, does. Cost: a few seconds per million
-    /// triangles.
+    /// Internal when Embree does, where that builds the search trees. Cost: a few seconds per
+    /// million triangles.
     [[nodiscard]] static Result<Tracer> build(std::span<const Instance> instances,
-                                              const glm::dvec3& origin);
+                                              const glm::dvec3& origin,
+                                              TreeBuilder builder = TreeBuilder::Best);
     Tracer(Tracer&&) noexcept;
     Tracer& operator=(Tracer&&) noexcept;
     ~Tracer();

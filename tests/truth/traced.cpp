@@ -34,11 +34,12 @@ std::map<std::uint64_t, shadows::Light> lights_of(const scene::Registry& registr
 
 }  // namespace
 
-Traced trace_lights(const Setting& setting, const truth::Options& options, std::uint32_t samples) {
+Traced trace_lights(const Setting& setting, const truth::Options& options, std::uint32_t samples,
+                    truth::TreeBuilder builder) {
     GNOMON_EXPECTS(samples == 1 || samples == 4);
     const glm::dvec3 eye(glm::inverse(setting.view.view_from_world)[3]);
     const auto instances = truth::instances_of(setting.scene);
-    const truth::Tracer tracer = must(truth::Tracer::build(instances, eye));
+    const truth::Tracer tracer = must(truth::Tracer::build(instances, eye, builder));
     Traced traced;
     for (const auto& [key, light] : lights_of(setting.scene.registry)) {
         traced.emplace_back();

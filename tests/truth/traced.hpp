@@ -22,7 +22,8 @@ using Traced = std::vector<std::vector<truth::Picture>>;
 [[nodiscard]] Traced trace_lights(const Setting& setting,
                                   const truth::Options& options = {.width = row_width,
                                                                    .height = row_height},
-                                  std::uint32_t samples = 1);
+                                  std::uint32_t samples = 1,
+                                  truth::TreeBuilder builder = truth::TreeBuilder::Best);
 
 /// Sums over lights and samples. `masks`: as Picture::masks (tests/rows/picture.hpp).
 [[nodiscard]] truth::Judgement judge_lights(
