@@ -10,6 +10,7 @@
 #include <gnomon/scene/scene_description.hpp>
 #include <gnomon/webgpu/backend.hpp>
 
+#include "truth_job.hpp"
 #include "view/mover.hpp"
 
 namespace gnomon::web {
@@ -20,8 +21,42 @@ using Json = Viewer::Json;
 
 constexpr double radians_per_pixel = 0.008;
 constexpr std::uint32_t largest_size_px = 8192;
+constexpr int most_frames = 1000;
 
 glm::dvec2 point_of(const Json& order) { return {order.value("x", 0.0), order.value("y", 0.0)}; }
+
+std::optional<shadows::Technique> technique_named(const std::string& name) {
+    if (name == "zpass") return shadows::Technique::DepthPass;
+    if (name == "zfail") return shadows::Technique::DepthFail;
+    return std::nullopt;
+}
+
+/// Another technique, and no debug views, for as long as this lives.
+class Meanwhile {
+public:
+    explicit Meanwhile(cli::Stage& stage)
+        : stage_(stage),
+          technique_(stage.options().technique),
+          overlays_(stage.options().overlays) {
+        stage_.options().overlays = {};
+    }
+    Meanwhile(const Meanwhile&) = delete;
+    Meanwhile& operator=(const Meanwhile&) = delete;
+    ~Meanwhile() {
+        stage_.options().technique = technique_;
+        stage_.options().overlays = overlays_;
+        stage_.shadows_changed();
+    }
+    void draw_by(std::optional<shadows::Technique> technique) {
+        stage_.options().technique = technique;
+        stage_.shadows_changed();
+    }
+
+private:
+    cli::Stage& stage_;
+    std::optional<shadows::Technique> technique_;
+    render::Overlays overlays_;
+};
 
 Json one_of(const std::string& name) { return Json{{"name", name}}; }
 
@@ -38,6 +73,7 @@ Json Viewer::obey(const Json& order) {
 
 Result<Json> Viewer::done(const std::string& what, const Json& order) {
     if (what == "start") return start();
+    if (what == "stop") return stop();
     if (what == "scenes") return Json{{"scenes", scene::builtin_scene_names()}};
     if (!device_) {
         return fail(ErrorCode::InvalidInput, fmt::format("\"{}\" comes before \"start\".", what));
@@ -54,11 +90,16 @@ Result<Json> Viewer::done(const std::string& what, const Json& order) {
     if (!stage_) {
         return fail(ErrorCode::InvalidInput, fmt::format("\"{}\" comes before \"load\".", what));
     }
+    if (!stage_->has_device()) {
+        return fail(ErrorCode::Internal, "The scene could not be brought onto this device.");
+    }
     if (what == "press") return press(order);
     if (what == "drag") return drag(order);
     if (what == "turn") return turn(order);
     if (what == "options") return options(order);
     if (what == "draw") return draw(order);
+    if (what == "measure") return measure(order);
+    if (what == "masks") return masks(order);
     if (what == "release") {
         drag_.reset();
         return Json::object();
@@ -95,7 +136,7 @@ Result<Json> Viewer::start() {
             if (complaint_.empty()) complaint_ = message;
         }});
     if (!backend) return forward_error(backend);
-    if (stage_) stage_->drop_device();
+    stop();
     device_.emplace(std::move(*backend));
     if (stage_) {
         if (const Status attached = attach(); !attached) return forward_error(attached);
@@ -104,6 +145,12 @@ Result<Json> Viewer::start() {
     return Json{{"adapter", caps.adapter},
                 {"unclipped_depth", caps.features.unclipped_depth},
                 {"timestamps", caps.features.timestamp_query}};
+}
+
+Json Viewer::stop() {
+    if (stage_) stage_->drop_device();
+    device_.reset();
+    return Json::object();
 }
 
 Status Viewer::attach() { return stage_->set_device(*device_, size_px_); }
@@ -212,10 +259,7 @@ Result<Json> Viewer::options(const Json& order) {
     }
     if (order.contains("samples")) options.samples = order["samples"] == 4 ? 4 : 1;
     if (order.contains("technique")) {
-        const std::string technique = order.value("technique", "auto");
-        options.technique.reset();
-        if (technique == "zpass") options.technique = shadows::Technique::DepthPass;
-        if (technique == "zfail") options.technique = shadows::Technique::DepthFail;
+        options.technique = technique_named(order.value("technique", "auto"));
         stage_->shadows_changed();
     }
     if (order.contains("ground")) stage_->show_ground(order.value("ground", false));
@@ -237,6 +281,67 @@ Result<Json> Viewer::draw(const Json& order) {
         }
     }
     return figures();
+}
+
+Result<Json> Viewer::measure(const Json& order) {
+    const std::string technique = order.value("technique", "auto");
+    const int frames = std::clamp(order.value("frames", 1), 1, most_frames);
+    Meanwhile meanwhile(*stage_);
+    meanwhile.draw_by(technique_named(technique));
+    const std::vector<panel::LightLine> lights = stage_->lights();
+    if (technique == "none") {
+        for (panel::LightLine& light : stage_->lights()) light.casts = false;
+    }
+    stage_->wait_for_device(true);
+    view_ = camera_.view(canvas());
+    Json frame_ms = Json::array();
+    Status drawn;
+    // The first one finds what the others know.
+    for (int frame = -1; frame < frames && drawn; ++frame) {
+        drawn = stage_->draw(view_, size_px_);
+        if (drawn && frame >= 0) frame_ms.push_back(stage_->figures().frame_ms);
+    }
+    stage_->lights() = lights;
+    if (!drawn) return forward_error(drawn);
+    return Json{{"frame_ms", std::move(frame_ms)}};
+}
+
+Result<Json> Viewer::masks(const Json& order) {
+    Meanwhile meanwhile(*stage_);
+    view_ = camera_.view(canvas());
+    TruthJob job = job_of(truth::instances_of(stage_->shot().scene));
+    job.width = size_px_.x;
+    job.height = size_px_.y;
+    job.samples = stage_->options().samples;
+    job.band_px = order.value("band_px", job.band_px);
+    job.view = view_;
+    masks_.clear();
+    for (const Json& technique : order.value("techniques", Json::array())) {
+        meanwhile.draw_by(technique_named(technique.get<std::string>()));
+        const auto drawn = stage_->draw_masks(view_, size_px_);
+        if (!drawn) return forward_error(drawn);
+        job.lights.clear();
+        for (const cli::LightMask& mask : *drawn) {
+            job.lights.push_back(mask.light);
+            for (const std::vector<std::byte>& sample : mask.samples) {
+                const auto* bytes = reinterpret_cast<const std::uint8_t*>(sample.data());
+                masks_.insert(masks_.end(), bytes, bytes + sample.size());
+            }
+        }
+    }
+    if (job.lights.empty()) {
+        return fail(ErrorCode::InvalidInput,
+                    "No light that casts shadows is on, so there is nothing to check.");
+    }
+    job_ = write_job(job);
+    const auto place = [](const std::vector<std::uint8_t>& bytes) {
+        return Json::array({reinterpret_cast<std::uintptr_t>(bytes.data()), bytes.size()});
+    };
+    return Json{{"width", job.width},
+                {"height", job.height},
+                {"samples", job.samples},
+                {"lights", job.lights.size()},
+                {"bytes", {{"job", place(job_)}, {"masks", place(masks_)}}}};
 }
 
 Json Viewer::figures() const {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // The viewer behind the page: the stage of `gnomon view`, its camera and what a pointer does to
-// them, driven by orders in JSON and answering in JSON. The page (page/viewer.js) owns the canvas,
+// them, driven by orders in JSON and answering in JSON. The page (page/page.js) owns the canvas,
 // the loop and everything that is text; it knows nothing of shadows.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,7 @@ public:
 
     /// An order is an object whose member "do" is one of
     ///   start    {}                               the device; answers adapter and features
+    ///   stop     {}                               lets go of it; all else stays for "start"
     ///   scenes   {}                               names of the built-in scenes
     ///   load     {source, name}                   "builtin:NAME" or a file; the old scene stays
     ///                                             where it fails
@@ -37,6 +39,13 @@ public:
     ///   light    {place, on}
     ///   options  {overlays, samples, technique, caps, ground}   those that are named
     ///   draw     {seconds, wait}                  plays, draws and shows; answers figures
+    ///   measure  {technique, frames}              draws without debug views, waits, and
+    ///                                             answers frame_ms of each; "none": no shadows
+    ///   masks    {techniques, band_px}            as drawn by each: answers width, height,
+    ///   samples,
+    ///                                             lights (names) and bytes {job, masks}: places
+    ///                                             and sizes, good until the next order
+    ///                                             (truth_job.hpp)
     /// The answer has a member "error", one sentence, where it was not done.
     [[nodiscard]] Json obey(const Json& order);
 
@@ -57,7 +66,10 @@ private:
     [[nodiscard]] Result<Json> turn(const Json& order);
     [[nodiscard]] Result<Json> options(const Json& order);
     [[nodiscard]] Result<Json> draw(const Json& order);
+    [[nodiscard]] Result<Json> measure(const Json& order);
+    [[nodiscard]] Result<Json> masks(const Json& order);
     [[nodiscard]] Json figures() const;
+    [[nodiscard]] Json stop();
     [[nodiscard]] Status attach();
     [[nodiscard]] cli::Canvas canvas() const { return {size_px_, 0.0}; }
 
@@ -69,6 +81,8 @@ private:
     glm::uvec2 size_px_{640, 360};
     std::optional<Drag> drag_;
     double time_s_ = 0.0;
+    std::vector<std::uint8_t> job_;    // of the last "masks"
+    std::vector<std::uint8_t> masks_;  // likewise
 };
 
 }  // namespace gnomon::web

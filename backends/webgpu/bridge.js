@@ -34,7 +34,9 @@ export async function createBridge({gpu = globalThis.navigator?.gpu, canvas = nu
     if (!adapter) throw new Error('WebGPU is there, but this browser gives no adapter to draw with.');
     const requiredFeatures = wantedFeatures.filter(f => adapter.features.has(f) && !disabledFeatures.includes(f));
     const requiredLimits = Object.fromEntries(wantedLimits.map(name => [name, adapter.limits[name]]));
-    const device = await adapter.requestDevice({label: 'gnomon', requiredFeatures, requiredLimits});
+    const device = await adapter.requestDevice({label: 'gnomon', requiredFeatures, requiredLimits}).catch(error => {
+        throw new Error(`This browser gives no WebGPU device: ${error.message.replace(/\.$/, '')}.`);
+    });
     return new Bridge(device, {canvas, info: adapter.info, disabledFeatures});
 }
 

@@ -3,8 +3,8 @@
 // A page in the browser, as somebody uses it, and what is claimed of it: each claim is a line of the output, and has a visit
 // of its own. Exits with 1 where a claim does not hold or the console has an error, and with 77 and the reason where there is
 // no browser.
-//   node FILE --site FOLDER --out FOLDER
-// Pictures of the page go to --out, to be looked at.
+//   node FILE --site FOLDER --out FOLDER [--only TEXT]
+// Pictures of the page go to --out, to be looked at. --only takes the claims that have TEXT in them.
 import assert from 'node:assert/strict';
 import {mkdirSync, writeFileSync} from 'node:fs';
 import path from 'node:path';
@@ -108,7 +108,8 @@ async function checkAll() {
     const browser = await Browser.launch({timeout: 660_000});
     let failed = 0;
     try {
-        for (const {text, test, more} of claims) {
+        const only = option('--only', '');
+        for (const {text, test, more} of claims.filter(claim => claim.text.includes(only))) {
             const visitor = new Visitor(browser, server.url);
             const begin = performance.now();
             try {

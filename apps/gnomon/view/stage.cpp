@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <gnomon/core/expects.hpp>
 #include <gnomon/render/light_choice.hpp>
 #include <gnomon/scene/deform.hpp>
 #include <gnomon/scene/primitives.hpp>
@@ -88,6 +89,34 @@ Status Stage::make_system() {
 }
 
 Status Stage::draw(const shadows::View& view, const glm::uvec2& size_px) {
+    return draw_frame(view, size_px, {});
+}
+
+Result<std::vector<LightMask>> Stage::draw_masks(const shadows::View& view,
+                                                 const glm::uvec2& size_px) {
+    std::vector<LightMask> masks;
+    const auto keep = [&](std::size_t place) -> Status {
+        const auto drawn = std::ranges::find(lights_, list_->lights[place].light,
+                                             [](const auto& line) { return line.entity.key(); });
+        GNOMON_EXPECTS(drawn != lights_.end());
+        LightMask& mask = masks.emplace_back();
+        mask.light = scene::shadow_light(shot_.scene.registry, drawn->entity).value();
+        for (std::uint32_t sample = 0; sample < options_.samples; ++sample) {
+            auto counts = render::read_stencil(*device_, *renderer_, sample);
+            if (!counts) return forward_error(counts);
+            mask.samples.push_back(std::move(*counts));
+        }
+        return {};
+    };
+    const render::Overlays shown = std::exchange(options_.overlays, {});
+    const Status drawn = draw_frame(view, size_px, keep);
+    options_.overlays = shown;
+    if (!drawn) return forward_error(drawn);
+    return masks;
+}
+
+Status Stage::draw_frame(const shadows::View& view, const glm::uvec2& size_px,
+                         const AfterLight& after_light) {
     GNOMON_EXPECTS(renderer_.has_value());
     if (!system_) {
         if (const Status made = make_system(); !made) return made;
@@ -120,7 +149,8 @@ Status Stage::draw(const shadows::View& view, const glm::uvec2& size_px) {
         return submitted;
     }
     list_ = &std::move(frame).finish(view);
-    if (const Status drawn = renderer_->render({shot_.scene, view, *list_, {}, unshadowed_});
+    if (const Status drawn =
+            renderer_->render({shot_.scene, view, *list_, after_light, unshadowed_});
         !drawn) {
         return drawn;
     }

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,6 +35,12 @@ struct FrameFigures {
     shadows::FrameStats shadows;
 };
 
+/// What a light's stencil held, and the light as the scene had it.
+struct LightMask {
+    shadows::Light light;
+    std::vector<std::vector<std::byte>> samples;  ///< a byte a pixel each, 0 = lit, row 0 on top
+};
+
 class Stage {
 public:
     /// Reads the scene. Fails as make_shot() does.
@@ -43,9 +50,16 @@ public:
     /// The device outlives it, or set_device() or drop_device() is called first.
     [[nodiscard]] Status set_device(gpu::Device& device, const glm::uvec2& size_px);
     void drop_device();
+    /// Whether it may draw: not after set_device() failed, nor after drop_device().
+    [[nodiscard]] bool has_device() const { return renderer_.has_value(); }
 
     /// Draws, and waits until it is drawn, unless told not to. `options()` as they are now count.
     [[nodiscard]] Status draw(const shadows::View& view, const glm::uvec2& size_px);
+    /// Draws without debug views and reads the stencil back after each light that casts a shadow,
+    /// in the order of their keys. Fails with ErrorCode::Unsupported where a device cannot be
+    /// waited for. figures() are of no use then.
+    [[nodiscard]] Result<std::vector<LightMask>> draw_masks(const shadows::View& view,
+                                                            const glm::uvec2& size_px);
     /// Where waiting is not possible, FrameFigures::device_ms is submission alone. The default
     /// waits.
     void wait_for_device(bool wait) { waits_ = wait; }
@@ -113,6 +127,9 @@ private:
     explicit Stage(const RenderOptions& options, Shot shot);
     [[nodiscard]] render::RendererDesc renderer_desc(const glm::uvec2& size_px) const;
     [[nodiscard]] Status make_system();
+    using AfterLight = std::function<Status(std::size_t light)>;  // FrameInput::after_light
+    [[nodiscard]] Status draw_frame(const shadows::View& view, const glm::uvec2& size_px,
+                                    const AfterLight& after_light);
 
     RenderOptions options_;
     Shot shot_;

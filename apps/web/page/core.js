@@ -8,28 +8,45 @@ import createModule from './gnomon.mjs';
 export class Core {
     /// Throws an Error of one sentence where the browser cannot do it.
     static async create({canvas, disabledFeatures = []}) {
+        // Neither needs the other until the first order.
+        const making = createModule({print: text => console.log(text), printErr: text => console.warn(text)});
+        making.catch(() => {});  // heard below, or nobody's business where there is no device
         const bridge = await createBridge({canvas, disabledFeatures});
-        const module = await createModule({
-            gnomonBridge: bridge,
-            print: text => console.log(text),
-            printErr: text => console.warn(text),
-        });
-        return new Core(module, bridge);
+        return new Core(await making, bridge, {canvas, disabledFeatures});
     }
 
-    constructor(module, bridge) {
+    constructor(module, bridge, options) {
         this.module = module;
-        this.bridge = bridge;
+        this.options = options;
         this.last = Promise.resolve();
-        this.call = canWait() ? bridge.waiting(module.asm.gnomon_web_obey) : module.asm.gnomon_web_obey;
         this.waits = canWait();
+        this.attach(bridge);
     }
 
-    /// The answer to an order; throws the sentence of its error.
-    obey(what, order = {}) {
-        const answer = this.last.then(() => this.obeyNow({...order, do: what}));
-        this.last = answer.catch(() => {});
-        return answer;
+    attach(bridge) {
+        this.bridge = bridge;
+        this.module.gnomonBridge = bridge;
+        const {gnomon_web_obey} = this.module.asm;
+        this.call = this.waits ? bridge.waiting(gnomon_web_obey) : gnomon_web_obey;
+    }
+
+    /// The answer to an order; throws the sentence of its error. Its member `bytes`, where it has one, holds copies.
+    obey(what, order = {}) { return this.afterwards(() => this.obeyNow({...order, do: what})); }
+
+    /// Goes on with a new device, with all that the core knows, after the old one was lost. The answer of "start"; throws
+    /// as create() does.
+    renew() {
+        return this.afterwards(async () => {
+            await this.obeyNow({do: 'stop'});  // while what it lets go of is still the old bridge's
+            this.attach(await createBridge(this.options));
+            return this.obeyNow({do: 'start'});
+        });
+    }
+
+    afterwards(action) {
+        const done = this.last.then(action);
+        this.last = done.catch(() => {});
+        return done;
     }
 
     async obeyNow(order) {
@@ -41,6 +58,10 @@ export class Core {
             module.stringToUTF8(text, place, size);
             const answer = JSON.parse(module.UTF8ToString(await this.call(place)));
             if (answer.error) throw new Error(answer.error);
+            for (const name in answer.bytes) {
+                const [at, length] = answer.bytes[name];
+                answer.bytes[name] = module.asm.memory.buffer.slice(at, at + length);
+            }
             return answer;
         } finally {
             module._free(place);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The page: what is clicked, dragged and dropped becomes orders for the core, and its answers become text.
+import {Check} from './check.js';
 import {Core} from './core.js';
 
 const byId = id => document.getElementById(id);
@@ -15,12 +16,14 @@ const mostPixels = 4096 * 2304;
 
 const state = {
     core: null,
+    check: null,
     dirty: true,           // something changed since the last frame
     turning: false,
     playing: true,
     animated: false,
     last: 0,               // when the last frame began
-    over: false,           // the device is lost
+    over: false,           // there is no device now
+    losses: [],            // when devices were lost
 };
 
 function say(text) {
@@ -29,8 +32,11 @@ function say(text) {
     note.hidden = !text;
 }
 
+const leavesTheView = new Set(['press', 'release']);
+
 /// Orders one thing of the core and draws; what goes wrong is said.
 async function order(what, details) {
+    if (!leavesTheView.has(what)) state.check.viewChanged();
     try {
         const answer = await state.core.obey(what, details);
         state.dirty = true;
@@ -60,10 +66,12 @@ function scale() {
     return pixels > mostPixels ? wanted * Math.sqrt(mostPixels / pixels) : wanted;
 }
 
-function fit() {
+async function fit() {
     const width = Math.max(1, Math.round(stage.clientWidth * scale()));
     const height = Math.max(1, Math.round(stage.clientHeight * scale()));
-    return order('size', {width, height});
+    if (width === state.width && height === state.height) return;
+    Object.assign(state, {width, height});
+    await order('size', {width, height});
 }
 
 // Drawing
@@ -105,9 +113,10 @@ function showFigures(figures) {
 async function frame(now) {
     const seconds = Math.min((now - state.last) / 1000, 0.1);
     state.last = now;
-    const moving = state.turning || (state.animated && state.playing);
+    const moving = isMoving();
     if (!state.over && (state.dirty || moving)) {
         state.dirty = false;
+        if (moving) state.check.viewChanged();
         try {
             if (state.turning) await state.core.obey('turn', {yaw_deg: 30 * seconds});
             const figures = await state.core.obey(
@@ -115,10 +124,19 @@ async function frame(now) {
             showFigures(figures);
             document.body.dataset.frames = Number(document.body.dataset.frames ?? 0) + 1;
         } catch (error) {
-            say(error.message);
+            if (!state.over) say(error.message);
         }
     }
     requestAnimationFrame(frame);
+}
+
+const isMoving = () => state.turning || (state.animated && state.playing);
+
+/// Whatever moves stands still, as if its button had been pressed.
+function freeze() {
+    for (const id of ['turn', 'play']) {
+        if (byId(id).getAttribute('aria-pressed') === 'true' && !byId(id).hidden) byId(id).click();
+    }
 }
 
 async function savePicture() {
@@ -253,22 +271,53 @@ function listenToControls(scenes) {
     new ResizeObserver(fit).observe(stage);
 }
 
+// The device
+
+const mostLosses = 5;
+const lossesWithin = 30_000;
+
+function showDevice({adapter}) { byId('adapter').textContent = `WebGPU on ${adapter}`; }
+
+/// When the device is lost the page goes on with another one; unless each is lost at once.
+function watchDevice() {
+    state.core.bridge.device.lost.then(async () => {
+        state.over = true;
+        state.check.viewChanged();
+        const now = performance.now();
+        state.losses = [...state.losses.filter(before => now - before < lossesWithin), now];
+        if (state.losses.length > mostLosses) {
+            say(`The graphics device was lost ${mostLosses + 1} times in half a minute; loading the page anew may help.`);
+            return;
+        }
+        say('The graphics device is lost; the page goes on with a new one …');
+        try {
+            showDevice(await state.core.renew());
+        } catch (error) {
+            say(`The graphics device is lost, and there is no new one: ${error.message}`);
+            return;
+        }
+        watchDevice();
+        state.over = false;
+        state.dirty = true;
+        say('');
+        document.body.dataset.devices = Number(document.body.dataset.devices) + 1;
+    });
+}
+
 async function main() {
     try {
         // ?without=FEATURE, for tests: as on an adapter that does not have it.
         const disabledFeatures = new URLSearchParams(location.search).getAll('without');
         state.core = await Core.create({canvas, disabledFeatures});
-        const device = await state.core.obey('start');
-        byId('adapter').textContent = `WebGPU on ${device.adapter}`;
+        showDevice(await state.core.obey('start'));
     } catch (error) {
         say(error.message);
         document.body.dataset.failed = error.message;
         return;
     }
-    state.core.bridge.device.lost.then(() => {
-        state.over = true;
-        say('The graphics device is lost; loading the page anew brings it back.');
-    });
+    document.body.dataset.devices = 1;
+    state.check = new Check({core: state.core, freeze});
+    watchDevice();
     const {scenes} = await state.core.obey('scenes');
     listenToControls(scenes);
     listenToPointers();
