@@ -27,10 +27,11 @@ export function canWait() {
 /// fallbacks. Throws an Error of one sentence where the browser has no WebGPU or no adapter.
 export async function createBridge({gpu = globalThis.navigator?.gpu, canvas = null, disabledFeatures = []} = {}) {
     if (!gpu) {
-        throw new Error('WebGPU is missing: this browser does not have navigator.gpu' +
-                        (globalThis.isSecureContext === false ? ', which needs a page from https or localhost.' : '.'));
+        throw new Error(globalThis.isSecureContext === false
+            ? 'WebGPU is missing: browsers give it to pages from https: or this machine, and this one is from elsewhere.'
+            : 'WebGPU is missing: this browser does not have navigator.gpu.');
     }
-    const adapter = await gpu.requestAdapter({powerPreference: 'high-performance'});
+    const adapter = await gpu.requestAdapter({powerPreference: 'high-performance'}).catch(() => null);
     if (!adapter) throw new Error('WebGPU is there, but this browser gives no adapter to draw with.');
     const requiredFeatures = wantedFeatures.filter(f => adapter.features.has(f) && !disabledFeatures.includes(f));
     const requiredLimits = Object.fromEntries(wantedLimits.map(name => [name, adapter.limits[name]]));

@@ -4,7 +4,7 @@
 //   node page.mjs --site FOLDER --out FOLDER [--frames N]
 import assert from 'node:assert/strict';
 
-import {check, claim, option} from './visitor.mjs';
+import {check, claim, option, otherHost} from './visitor.mjs';
 
 const frames = Number(option('--frames', '1000'));
 
@@ -254,21 +254,61 @@ claim('a phone has all of it', async visitor => {
     await visitor.keepPicture('narrow-folded.png');
 }, {width: 390, height: 844, scale: 2, touch: true});
 
-claim('without depth clamping it draws', async visitor => {
-    assert.equal(await visitor.evaluate('document.body.dataset.failed ?? ""'), '');
-    const figures = await visitor.nextFrame();
-    assert.ok(Number(figures.pairs) > 0);
-    assert.equal(await visitor.note(), '');
-}, {path: '?without=depth-clip-control&without=timestamp-query&without=float32-filterable'});
+// Capabilities that are nice to have, each by itself and all together.
+const noPromises = 'delete WebAssembly.Suspending; delete WebAssembly.promising;';
+const optional = ['depth-clip-control', 'timestamp-query', 'float32-filterable'];
+const withouts = [
+    ...optional.map(feature => [feature, {path: `?without=${feature}`}]),
+    ['JavaScript Promise Integration', {before: noPromises}],
+    ['all of these', {path: `?${optional.map(feature => `without=${feature}`).join('&')}`, before: noPromises}],
+];
+for (const [what, more] of withouts) {
+    claim(`without ${what} it draws`, async visitor => {
+        assert.equal(await visitor.evaluate('document.body.dataset.failed ?? ""'), '');
+        const figures = await visitor.nextFrame();
+        assert.ok(Number(figures.pairs) > 0);
+        await visitor.choose('scene', 'pillars');
+        await visitor.choose('samples', true);
+        assert.equal(await visitor.note(), '');
+        const canCheck = await visitor.evaluate("!document.getElementById('check').disabled");
+        assert.equal(canCheck, !more.before);
+        if (!canCheck) {
+            const note = await visitor.evaluate("document.getElementById('check-note').textContent");
+            assert.match(note, /needs JavaScript Promise Integration; .*\.$/);
+        }
+    }, more);
+}
 
-claim('without depth32float-stencil8 it says what is missing', async visitor => {
-    assert.match(await visitor.note(), /lacks depth32float-stencil8.*\.$/);
-}, {path: '?without=depth32float-stencil8'});
+// What it cannot do without: one sentence each, and nothing about that could be clicked in vain.
+const missing = {
+    'an adapter with depth32float-stencil8': [/lacks depth32float-stencil8/, {path: '?without=depth32float-stencil8'}],
+    'WebGPU': [/^WebGPU is missing: this browser/, {before: "Object.defineProperty(navigator, 'gpu', {value: undefined})"}],
+    'an address that browsers trust': [/^WebGPU is missing: .*https:/, {host: otherHost}],
+    'an adapter': [/no adapter/, {before: 'if (self.GPU) GPU.prototype.requestAdapter = async () => null'}],
+    'an adapter request that works':
+        [/no adapter/, {before: "if (self.GPU) GPU.prototype.requestAdapter = async () => { throw new Error('not today'); }"}],
+    'a device': [/no WebGPU device: not today\.$/,
+                 {before: "if (self.GPUAdapter) GPUAdapter.prototype.requestDevice = async () => { throw new Error('not today.'); }"}],
+    'its own program': [/program does not load: .*\.$/,
+                        {before: "WebAssembly.instantiateStreaming = WebAssembly.instantiate = async () => { throw new Error('no'); }"}],
+};
+for (const [what, [sentence, more]] of Object.entries(missing)) {
+    claim(`without ${what} it says so in one sentence`, async visitor => {
+        const note = await visitor.note();
+        assert.match(note, sentence);
+        assert.match(note, /^[A-Z][^\n]*\.$/);
+        const seen = await visitor.evaluate(`[...document.querySelectorAll('button, select, input, canvas')]
+            .filter(element => element.checkVisibility()).map(element => element.id)`);
+        assert.deepEqual(seen, []);
+        assert.equal(await visitor.evaluate("document.getElementById('about').checkVisibility()"), true);
+        if (what === 'WebGPU') await visitor.keepPicture('without-webgpu.png');
+    }, more);
+}
 
-claim('without WebGPU it says so', async visitor => {
-    assert.match(await visitor.note(), /^WebGPU is missing: .*\.$/);
-    await visitor.keepPicture('without-webgpu.png');
-}, {before: "Object.defineProperty(navigator, 'gpu', {value: undefined})"});
+claim('without WebGPU a phone has the sentence, too', async visitor => {
+    assert.match(await visitor.note(), /^WebGPU is missing/);
+    await visitor.keepPicture('without-webgpu-narrow.png');
+}, {width: 390, height: 844, scale: 2, touch: true, before: missing.WebGPU[1].before});
 
 claim('a device that is lost is replaced, again and again', async visitor => {
     await visitor.choose('scene', 'pillars');

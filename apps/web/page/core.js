@@ -12,7 +12,10 @@ export class Core {
         const making = createModule({print: text => console.log(text), printErr: text => console.warn(text)});
         making.catch(() => {});  // heard below, or nobody's business where there is no device
         const bridge = await createBridge({canvas, disabledFeatures});
-        return new Core(await making, bridge, {canvas, disabledFeatures});
+        const module = await making.catch(error => {
+            throw new Error(`The page's program does not load: ${error.message.replace(/\.$/, '')}.`);
+        });
+        return new Core(module, bridge, {canvas, disabledFeatures});
     }
 
     constructor(module, bridge, options) {

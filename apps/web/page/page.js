@@ -304,6 +304,15 @@ function watchDevice() {
     });
 }
 
+/// There is nothing to look at and nothing to do.
+function fail(sentence) {
+    say(sentence);
+    document.body.classList.add('failed');
+    document.body.dataset.failed = sentence;
+    for (const id of ['canvas', 'controls', 'fold']) byId(id).hidden = true;
+    byId('about').hidden = false;
+}
+
 async function main() {
     try {
         // ?without=FEATURE, for tests: as on an adapter that does not have it.
@@ -311,8 +320,7 @@ async function main() {
         state.core = await Core.create({canvas, disabledFeatures});
         showDevice(await state.core.obey('start'));
     } catch (error) {
-        say(error.message);
-        document.body.dataset.failed = error.message;
+        fail(error.message);
         return;
     }
     document.body.dataset.devices = 1;
