@@ -122,6 +122,7 @@ async function frame(now) {
             const figures = await state.core.obey(
                 'draw', {seconds: state.animated && state.playing ? seconds : 0, wait: state.core.waits});
             showFigures(figures);
+            document.body.dataset.startMs ??= Math.round(performance.now());
             document.body.dataset.frames = Number(document.body.dataset.frames ?? 0) + 1;
         } catch (error) {
             if (!state.over) say(error.message);
