@@ -58,6 +58,8 @@ private:
     render::Overlays overlays_;
 };
 
+Json numbers(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
 Json one_of(const std::string& name) { return Json{{"name", name}}; }
 
 }  // namespace
@@ -73,7 +75,10 @@ Json Viewer::obey(const Json& order) {
 
 Result<Json> Viewer::done(const std::string& what, const Json& order) {
     if (what == "start") return start();
-    if (what == "stop") return stop();
+    if (what == "stop") {
+        stop();
+        return Json::object();
+    }
     if (what == "scenes") return Json{{"scenes", scene::builtin_scene_names()}};
     if (!device_) {
         return fail(ErrorCode::InvalidInput, fmt::format("\"{}\" comes before \"start\".", what));
@@ -147,10 +152,9 @@ Result<Json> Viewer::start() {
                 {"timestamps", caps.features.timestamp_query}};
 }
 
-Json Viewer::stop() {
+void Viewer::stop() {
     if (stage_) stage_->drop_device();
     device_.reset();
-    return Json::object();
 }
 
 Status Viewer::attach() { return stage_->set_device(*device_, size_px_); }
@@ -186,7 +190,8 @@ Result<Json> Viewer::load(const Json& order) {
 
 Result<Json> Viewer::press(const Json& order) {
     Drag drag{.pan = order.value("pan", false), .light = std::nullopt, .at_px = point_of(order)};
-    const auto light = stage_->light_under(view_, size_px_, drag.at_px);
+    const double reach = order.value("reach", 16.0);
+    const auto light = stage_->light_under(view_, size_px_, drag.at_px, reach);
     if (!drag.pan && light) {
         const panel::LightLine& held = stage_->lights()[*light];
         drag.light = light;
@@ -372,6 +377,8 @@ Json Viewer::figures() const {
                 {"zpass_pairs", f.shadows.zpass_pairs},
                 {"zfail_pairs", f.shadows.zfail_pairs},
                 {"silhouette_edges", f.shadows.silhouette_edges},
+                {"eye", numbers(camera_.eye())},
+                {"pivot", numbers(camera_.pivot())},
                 {"reasons", std::move(reasons)},
                 {"lights", std::move(lights)}};
 }

@@ -29,7 +29,8 @@ public:
     ///   load     {source, name}                   "builtin:NAME" or a file; the old scene stays
     ///                                             where it fails
     ///   size     {width, height}                  of the picture, in pixels
-    ///   press    {x, y, pan}                      pixels; answers what was caught
+    ///   press    {x, y, pan, reach}               pixels, the last one how near a light must be;
+    ///                                             answers what was caught
     ///   drag     {x, y, along_ground}
     ///   release  {}
     ///   zoom     {notches}
@@ -69,7 +70,7 @@ private:
     [[nodiscard]] Result<Json> measure(const Json& order);
     [[nodiscard]] Result<Json> masks(const Json& order);
     [[nodiscard]] Json figures() const;
-    [[nodiscard]] Json stop();
+    void stop();
     [[nodiscard]] Status attach();
     [[nodiscard]] cli::Canvas canvas() const { return {size_px_, 0.0}; }
 

@@ -258,15 +258,70 @@ claim(`memory is steady over ${frames} frames`, async visitor => {
     await visitor.evaluate("document.getElementById('turn').click()");
 }, {width: 760, height: 180});
 
+const phone = {width: 390, height: 844, scale: 2, touch: true};
+
 claim('a phone has all of it', async visitor => {
     await visitor.nextFrame();
     await visitor.keepPicture('narrow.png');
-    const wide = await visitor.evaluate('document.documentElement.scrollWidth <= window.innerWidth');
-    assert.ok(wide, 'it is wider than the screen');
+    const fits = () => visitor.evaluate('document.documentElement.scrollWidth <= window.innerWidth');
+    assert.ok(await fits(), 'it is wider than the screen');
     await visitor.evaluate("document.getElementById('fold').click()");
     await visitor.nextFrame();
     await visitor.keepPicture('narrow-folded.png');
-}, {width: 390, height: 844, scale: 2, touch: true});
+    await visitor.evaluate("document.getElementById('fold').click()");
+    await visitor.nextFrame();
+    // Whatever is to be hit is as large as a finger needs it, and can be scrolled to.
+    const small = await visitor.evaluate(`[...document.querySelectorAll('button, select, input, .switches label')]
+        .filter(element => element.checkVisibility())
+        .map(element => ({name: element.id || element.textContent, height: (element.closest('label') ?? element).getBoundingClientRect().height}))
+        .filter(({height}) => height < 36).map(({name}) => name)`);
+    assert.deepEqual(small, []);
+}, phone);
+
+// At one pixel of the picture a pixel of the page, which is a quarter of the work.
+claim('a phone checks its view', async visitor => {
+    const found = await checkView(visitor, 300);
+    assert.equal(found.state, 'done', found.note);
+    console.log(`        ${found.note}`);
+    assert.equal(found.width, 390);
+    await visitor.evaluate("document.getElementById('check-section').scrollIntoView()");
+    await visitor.keepPicture('narrow-checked.png');
+    assert.ok(await visitor.evaluate('document.documentElement.scrollWidth <= window.innerWidth'));
+}, {...phone, scale: 1});
+
+claim('fingers turn the camera, move it and bring it closer', async visitor => {
+    await visitor.choose('scene', 'pillars');
+    await visitor.nextFrame();
+    const camera = () => visitor.evaluate('({eye: gnomon.figures.eye, pivot: gnomon.figures.pivot})');
+    const between = (a, b) => Math.hypot(...a.map((value, i) => value - b[i]));
+    const far = ({eye, pivot}) => between(eye, pivot);
+    // Each finger goes from its first place to its second one.
+    const gesture = async fingers => {
+        const touch = (type, share) => visitor.page.call('Input.dispatchTouchEvent', {
+            type, touchPoints: type === 'touchEnd' ? [] : fingers.map(([from, to], id) => (
+                {id, x: from[0] + (to[0] - from[0]) * share, y: from[1] + (to[1] - from[1]) * share})),
+        });
+        await touch('touchStart', 0);
+        for (let step = 1; step <= 5; ++step) await touch('touchMove', step / 5);
+        await touch('touchEnd', 1);
+        await visitor.evaluate('gnomon.core.last');
+        await visitor.nextFrame();
+        return camera();
+    };
+    const first = await camera();
+    const turned = await gesture([[[120, 330], [200, 330]]]);
+    assert.ok(between(turned.eye, first.eye) > 0.1 * far(first), 'one finger turns');
+    assert.ok(between(turned.pivot, first.pivot) < 1e-3 * far(first), 'about the same point');
+    assert.ok(Math.abs(far(turned) - far(first)) < 1e-3 * far(first), 'at the same distance');
+    const closer = await gesture([[[170, 200], [130, 200]], [[210, 200], [250, 200]]]);
+    assert.ok(Math.abs(far(closer) / far(turned) - 40 / 120) < 0.05, `a pinch of 3 brings it from ${far(turned)} to ${far(closer)}`);
+    assert.ok(between(closer.pivot, turned.pivot) < 0.02 * far(turned), 'and nowhere else');
+    const moved = await gesture([[[150, 150], [190, 190]], [[210, 150], [250, 190]]]);
+    assert.ok(between(moved.pivot, closer.pivot) > 0.05 * far(closer), 'two fingers move');
+    assert.ok(Math.abs(far(moved) - far(closer)) < 1e-3 * far(closer), 'and keep the distance');
+    assert.equal(await visitor.evaluate('window.visualViewport.scale'), 1, 'the page itself is not scaled');
+    assert.equal(await visitor.note(), '');
+}, {...phone, scale: 1});
 
 // Capabilities that are nice to have, each by itself and all together.
 const noPromises = 'delete WebAssembly.Suspending; delete WebAssembly.promising;';

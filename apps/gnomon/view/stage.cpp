@@ -22,8 +22,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double reach_px = 16.0;
-
 double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
@@ -178,7 +176,7 @@ std::optional<std::size_t> Stage::light_of(scene::Entity entity) const {
 }
 
 std::optional<std::size_t> Stage::light_under(const shadows::View& view, const glm::uvec2& size_px,
-                                              const glm::dvec2& cursor_px) const {
+                                              const glm::dvec2& cursor_px, double reach_px) const {
     std::optional<std::size_t> nearest;
     double best = reach_px;
     for (std::size_t i = 0; i < lights_.size(); ++i) {

@@ -86,10 +86,11 @@ public:
     [[nodiscard]] glm::dvec3 handle_of(const panel::LightLine& light) const {
         return panel::handle_of(shot_.scene.registry, light.entity, shot_.bounds);
     }
-    /// A light whose handle is within 16 pixels of the cursor; the nearest.
+    /// A light whose handle is so near the cursor; the nearest. Fingers need more than mice.
     [[nodiscard]] std::optional<std::size_t> light_under(const shadows::View& view,
                                                          const glm::uvec2& size_px,
-                                                         const glm::dvec2& cursor_px) const;
+                                                         const glm::dvec2& cursor_px,
+                                                         double reach_px = 16.0) const;
 
     /// A floor below everything, for models that have nothing to cast a shadow on. Receives, and
     /// casts none. Nothing happens where the scene is empty. Its entity goes with it: see

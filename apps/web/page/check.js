@@ -9,7 +9,8 @@ const byId = id => document.getElementById(id);
 /// How far from a true edge a pixel must be to be judged, in pixels: a software rasteriser's places are that coarse.
 const band = 1 / 8;
 const rounds = 3;
-const framesOfRound = 4;
+const mostFramesOfRound = 4;
+const measuringMs = 6000;  // for all techniques together, where frames are not slower than that
 const pixelsOfPart = 20_000;
 const mostWorkers = 4;
 const mostRings = 200;
@@ -133,6 +134,10 @@ export class Check {
     async find(stillWanted) {
         this.progress(0, 'Drawing …');
         const times = Object.fromEntries(techniques.map(({id}) => [id, []]));
+        const {frame_ms: [first]} = await this.core.obey('measure', {technique: 'auto', frames: 1});
+        // One more is drawn each time, which finds what the others know.
+        const frames = Math.floor(measuringMs / (rounds * techniques.length * first)) - 1;
+        const framesOfRound = Math.max(1, Math.min(frames, mostFramesOfRound));
         for (let round = 0; round < rounds; ++round) {
             for (const {id} of techniques) {
                 const {frame_ms} = await this.core.obey('measure', {technique: id, frames: framesOfRound});
@@ -144,7 +149,7 @@ export class Check {
         const drawn = await this.core.obey('masks', {techniques: judgedOnes.map(({id}) => id), band_px: band});
         stillWanted();
         const result = {
-            ...drawn, traced: 0, judged: 0, band: 0, begin: performance.now(),
+            ...drawn, frames: rounds * framesOfRound, traced: 0, judged: 0, band: 0, begin: performance.now(),
             rows: techniques.map(technique => ({...technique, ms: median(times[technique.id]), wrong: 0, at: []})),
         };
         delete result.bytes;
@@ -207,7 +212,7 @@ export class Check {
         byId('check-note').textContent =
             `auto: ${milliseconds(auto.ms)} ms, ${count(auto.wrong)} wrong of ${count(result.judged)} judged ` +
             `${result.samples > 1 ? 'samples' : 'pixels'} (${count(result.band)} in the band, 1/${1 / band} pixel round ` +
-            `true edges). Of ${size}, traced in ${result.seconds.toFixed(1)} s; a median of ${rounds * framesOfRound} frames.`;
+            `true edges). Of ${size}, traced in ${result.seconds.toFixed(1)} s; a median of ${result.frames} frames.`;
         this.mark();
     }
 
@@ -221,7 +226,7 @@ export class Check {
         const context = canvas.getContext('2d');
         const scale = result.width / Math.max(1, canvas.clientWidth);
         let marked = 0;
-        for (const row of result.rows) {
+        for (const row of [...result.rows].reverse()) {
             const places = [...new Set(row.at)];
             marked += places.length;
             const color = getComputedStyle(byId('check-rows')).getPropertyValue(`--${row.id}`);

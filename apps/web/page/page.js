@@ -24,6 +24,7 @@ const state = {
     last: 0,               // when the last frame began
     over: false,           // there is no device now
     losses: [],            // when devices were lost
+    figures: null,         // of the last frame
 };
 
 function say(text) {
@@ -121,6 +122,7 @@ async function frame(now) {
             if (state.turning) await state.core.obey('turn', {yaw_deg: 30 * seconds});
             const figures = await state.core.obey(
                 'draw', {seconds: state.animated && state.playing ? seconds : 0, wait: state.core.waits});
+            state.figures = figures;
             showFigures(figures);
             document.body.dataset.startMs ??= Math.round(performance.now());
             document.body.dataset.frames = Number(document.body.dataset.frames ?? 0) + 1;
@@ -168,13 +170,15 @@ function listenToPointers() {
         return b ? Math.hypot(a.x - b.x, a.y - b.y) : 0;
     };
     let apart = 0;
-    const begin = (point, pan) => order('press', {...point, pan});
+    // A light's disc is caught by what is a little larger than a finger, or than an arrow.
+    const begin = (event, pan) => order(
+        'press', {...middle(), pan, reach: (event.pointerType === 'touch' ? 24 : 12) * scale()});
     canvas.addEventListener('pointerdown', event => {
         canvas.setPointerCapture(event.pointerId);
         pointers.set(event.pointerId, at(event));
         canvas.classList.add('held');
         apart = spread();
-        begin(middle(), pointers.size > 1 || event.button !== 0);
+        begin(event, pointers.size > 1 || event.button !== 0);
     });
     canvas.addEventListener('pointermove', event => {
         if (!pointers.has(event.pointerId)) return;
@@ -189,7 +193,7 @@ function listenToPointers() {
     const end = event => {
         if (!pointers.delete(event.pointerId)) return;
         order('release');
-        if (pointers.size > 0) begin(middle(), false);
+        if (pointers.size > 0) begin(event, false);
         else canvas.classList.remove('held');
     };
     canvas.addEventListener('pointerup', end);
@@ -224,7 +228,10 @@ async function open(file) {
 }
 
 function listenToFiles() {
-    byId('file').addEventListener('change', event => open(event.target.files[0]));
+    byId('file').addEventListener('change', async event => {
+        await open(event.target.files[0]);
+        event.target.value = '';  // so that the same one can be chosen again
+    });
     const over = event => {
         event.preventDefault();
         stage.classList.add('over');
