@@ -95,6 +95,36 @@ TEST_P(OnStage, every_choice_draws_the_same_shadows) {
     EXPECT_EQ(draw(), picture);
 }
 
+TEST_P(OnStage, masks_are_what_the_stencil_holds_of_each_light_that_casts) {
+    open("builtin:pillars");
+    stage->options().overlays.fill = true;  // shown in the picture, and in no mask
+    const auto picture = draw();
+    const auto masks = must(stage->draw_masks(view(), size));
+    ASSERT_EQ(masks.size(), 2U);
+    EXPECT_LT(masks[0].light.key, masks[1].light.key);
+    for (const LightMask& mask : masks) {
+        ASSERT_EQ(mask.samples.size(), 1U);
+        ASSERT_EQ(mask.samples[0].size(), std::size_t{size.x} * size.y);
+        const auto lit = std::ranges::count(mask.samples[0], std::byte{0});
+        EXPECT_GT(lit, 0);
+        EXPECT_LT(lit, std::int64_t{size.x} * size.y);
+    }
+    EXPECT_NE(masks[0].samples, masks[1].samples);
+    EXPECT_EQ(draw(), picture);
+    // The other light's is as it was when the first one is off.
+    stage->lights()[0].on = false;
+    const auto one = must(stage->draw_masks(view(), size));
+    ASSERT_EQ(one.size(), 1U);
+    EXPECT_NE(one[0].light.key, stage->lights()[0].entity.key());
+    const auto& before = masks[masks[0].light.key == one[0].light.key ? 0 : 1];
+    EXPECT_EQ(one[0].samples, before.samples);
+    stage->options().samples = 4;
+    const auto of_four = must(stage->draw_masks(view(), size));
+    ASSERT_EQ(of_four.size(), 1U);
+    ASSERT_EQ(of_four[0].samples.size(), 4U);
+    EXPECT_NE(of_four[0].samples[0], of_four[0].samples[3]);
+}
+
 TEST_P(OnStage, dragging_a_light_finds_its_silhouettes_alone) {
     open("builtin:pillars");
     static_cast<void>(draw());

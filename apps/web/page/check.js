@@ -9,8 +9,8 @@ const byId = id => document.getElementById(id);
 /// How far from a true edge a pixel must be to be judged, in pixels: a software rasteriser's places are that coarse.
 const band = 1 / 8;
 const rounds = 3;
-const mostFramesOfRound = 4;
-const measuringMs = 6000;  // for all techniques together, where frames are not slower than that
+const mostFramesOfRound = 10;
+const measuringMs = 10_000;  // for all techniques together, where frames are not slower than that
 const pixelsOfPart = 20_000;
 const mostWorkers = 4;
 const mostRings = 200;
@@ -275,7 +275,7 @@ function marker({id, shape}, x, y) {
 
 /// Milliseconds to the right, from 0; wrong pixels upwards, from 0 and then by powers of ten.
 function plot(rows) {
-    const [width, height, left, bottom, top, right] = [252, 150, 40, 34, 12, 12];
+    const [width, height, left, bottom, top, right] = [252, 150, 40, 34, 12, 18];
     const decades = Math.max(2, Math.ceil(Math.log10(Math.max(1, ...rows.map(row => row.wrong))) + 1e-9));
     const step = niceStep(Math.max(...rows.map(row => row.ms)) * 1.05);
     const steps = Math.ceil(Math.max(...rows.map(row => row.ms)) * 1.05 / step);
