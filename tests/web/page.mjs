@@ -501,6 +501,22 @@ claim('a device that is lost is replaced, again and again', async visitor => {
     assert.equal(await visitor.note(), '');
 });
 
+claim('a device that is lost while the first scene loads is replaced', async visitor => {
+    await visitor.until('Number(document.body.dataset.devices) === 2 && document.body.dataset.frames > 0');
+    const figures = await visitor.nextFrame();
+    assert.ok(Number(figures.pairs) > 0);
+    assert.equal(await visitor.note(), '');
+}, {before: `if (self.GPUAdapter) {
+    const request = GPUAdapter.prototype.requestDevice;
+    let first = true;
+    GPUAdapter.prototype.requestDevice = async function(...words) {
+        const device = await request.apply(this, words);
+        if (first) setTimeout(() => device.destroy(), 0);
+        first = false;
+        return device;
+    };
+}`});
+
 claim('a device that cannot be replaced is one sentence', async visitor => {
     await visitor.evaluate("GPU.prototype.requestAdapter = async () => null");
     await visitor.evaluate('gnomon.core.bridge.device.destroy()');

@@ -83,8 +83,8 @@ export class Check {
         byId('check').addEventListener('click', () => this.running ? this.cancel() : this.run());
         if (!core.waits) {
             byId('check').disabled = true;
-            byId('check-note').textContent = 'To check a view, masks are read back, which needs JavaScript Promise ' +
-                'Integration; this browser does not have it.';
+            this.say('To check a view, masks are read back, which needs JavaScript Promise Integration; this browser does not ' +
+                'have it.');
         }
     }
 
@@ -94,7 +94,7 @@ export class Check {
         this.clearMarks();
         byId('check-result').classList.toggle('stale', Boolean(this.result));
         if (this.running) this.cancel('The view has changed, so the check has ended.');
-        else if (this.result) byId('check-note').textContent = 'Of an earlier view.';
+        else if (this.result) this.say('Of an earlier view.');
     }
 
     cancel(reason = 'The check was ended.') {
@@ -117,7 +117,7 @@ export class Check {
             document.body.dataset.check = 'done';
         } catch (error) {
             document.body.dataset.check = 'ended';
-            byId('check-note').textContent = error instanceof Cancelled ? this.reason : error.message;
+            this.say(error instanceof Cancelled ? this.reason : error.message);
             if (this.result && !this.result.seconds) {
                 this.result = null;
                 byId('check-result').hidden = true;
@@ -174,11 +174,16 @@ export class Check {
 
     // What is seen of it
 
+    say(text, live = 'polite') {
+        byId('check-note').setAttribute('aria-live', live);
+        byId('check-note').textContent = text;
+    }
+
     progress(share, text) {
         const bar = byId('check-progress');
         bar.hidden = false;
         bar.value = share;
-        byId('check-note').textContent = text;
+        this.say(text, 'off');  // the bar says it to those who listen
     }
 
     show() {
@@ -209,10 +214,10 @@ export class Check {
         byId('check-plot').replaceChildren(plot(result.rows));
         if (!result.seconds) return;
         const [auto] = result.rows;
-        byId('check-note').textContent =
+        this.say(
             `auto: ${milliseconds(auto.ms)} ms, ${count(auto.wrong)} wrong of ${count(result.judged)} judged ` +
             `${result.samples > 1 ? 'samples' : 'pixels'} (${count(result.band)} in the band, 1/${1 / band} pixel round ` +
-            `true edges). Of ${size}, traced in ${result.seconds.toFixed(1)} s; a median of ${result.frames} frames.`;
+            `true edges). Of ${size}, traced in ${result.seconds.toFixed(1)} s; a median of ${result.frames} frames.`);
         this.mark();
     }
 

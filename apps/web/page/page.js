@@ -24,6 +24,7 @@ const state = {
     last: 0,               // when the last frame began
     over: false,           // there is no device now
     losses: [],            // when devices were lost
+    wanted: null,          // the scene that is being loaded
     figures: null,         // of the last frame
 };
 
@@ -50,7 +51,10 @@ async function order(what, details) {
 
 async function load(source, name) {
     say(`Loading ${name} …`);
+    state.wanted = {source, name};
     const answer = await order('load', {source});
+    if (!answer && state.over) return;  // the next device gets it
+    state.wanted = null;
     if (!answer) return;
     state.animated = answer.animated;
     byId('play').hidden = !answer.animated;
@@ -308,6 +312,7 @@ function watchDevice() {
         state.over = false;
         state.dirty = true;
         say('');
+        if (state.wanted) await load(state.wanted.source, state.wanted.name);
         document.body.dataset.devices = Number(document.body.dataset.devices) + 1;
     });
 }
