@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "internal/adapter.hpp"
 #include "internal/command_words.hpp"
 #include "internal/objects.hpp"
@@ -62,6 +64,18 @@ Status WebGpuBackend::create_buffer(gpu::BufferId id, const gpu::BufferDesc& des
 
 Status WebGpuBackend::create_texture(gpu::TextureId id, const gpu::TextureDesc& desc) {
     return status_of(bridge_->create(Kind::Texture, id.index, describe(desc)));
+}
+
+Status WebGpuBackend::import_texture(gpu::TextureId id, const gpu::TextureDesc& desc,
+                                     const gpu::NativeTexture& native) {
+    const auto* host = std::any_cast<HostTexture>(&native);
+    if (host == nullptr) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("[Texture \"{}\"] cannot be imported: what WebGPU imports is a "
+                                "webgpu::HostTexture.",
+                                desc.label));
+    }
+    return status_of(bridge_->create(Kind::Texture, id.index, describe(desc, host->number)));
 }
 
 Status WebGpuBackend::create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& desc) {

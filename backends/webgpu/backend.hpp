@@ -4,9 +4,10 @@
 // Emscripten. This half writes descriptors and command lists down as plain data; bridge.js, which
 // the page runs, makes WebGPU's calls of them. The page makes the device too, since that takes
 // turns of its event loop, and puts the bridge into Module.gnomonBridge before anything here is
-// called.
+// called. A device and textures of a host's are adopted the same way.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,5 +34,13 @@ struct BackendOptions {
 /// Bridge.waiting(); others get ErrorCode::Unsupported.
 [[nodiscard]] Result<std::unique_ptr<gpu::Backend>> create_backend(
     const BackendOptions& options = {});
+
+/// What Device::import_texture() takes: a GPUTexture that the page has given to Bridge.adopt() of
+/// bridge.js, which answers this number. The TextureDesc says its format, size, samples and levels,
+/// which are checked, and usages that it has, of which RenderAttachment and TextureBinding matter.
+/// destroy() leaves it alone; it may be forgotten by Bridge.release() once it is imported.
+struct HostTexture {
+    std::uint32_t number = 0;  ///< as Bridge.adopt() answered
+};
 
 }  // namespace gnomon::webgpu

@@ -41,10 +41,19 @@ export async function createBridge({gpu = globalThis.navigator?.gpu, canvas = nu
     return new Bridge(device, {canvas, info: adapter.info, disabledFeatures});
 }
 
-/// The translator for one device, which may be a host's; `canvas` is where pictures are shown, if anywhere. It then has
-/// the size of the last picture; to stretch it is CSS's business.
+/// Why a call is refused, as an outcome and a sentence.
+class Refusal extends Error {
+    constructor(code, sentence) {
+        super(sentence);
+        this.code = code;
+    }
+}
+
+/// The translator for one device. `canvas` is where pictures are shown, if anywhere. It then has the size of the last picture;
+/// to stretch it is CSS's business. `adopted`: the device is a host's, who also hears what it complains of; what is drawn goes
+/// into `encoder` where the host has put a GPUCommandEncoder of its own there, and is submitted with it.
 export class Bridge {
-    constructor(device, {canvas = null, info = device.adapterInfo, disabledFeatures = []} = {}) {
+    constructor(device, {canvas = null, info = device.adapterInfo, disabledFeatures = [], adopted = false} = {}) {
         this.device = device;
         this.canvas = canvas;
         this.info = info;
@@ -55,12 +64,16 @@ export class Bridge {
         this.error = '';        // what the last outcome but `done` means
         this.objects = Object.fromEntries(kinds.map(kind => [kind, []]));
         this.nearest = device.createSampler({label: 'nearest'});
+        this.encoder = null;
+        this.textures = [];     // of the host's, by the number that adopt() answered
         this.scratch = new Float64Array(1);
         this.scratchWords = new Uint32Array(this.scratch.buffer);
-        device.addEventListener('uncapturederror', event => {
-            event.preventDefault();
-            this.messages.push(event.error.message);
-        });
+        if (!adopted) {
+            device.addEventListener('uncapturederror', event => {
+                event.preventDefault();
+                this.messages.push(event.error.message);
+            });
+        }
         device.lost.then(({reason, message}) => {
             this.lost = `The WebGPU device is lost (${reason}): ${message || 'the browser does not say why.'}`;
         });
@@ -118,6 +131,7 @@ export class Bridge {
 
     refuse(error) {
         if (this.lost) return this.fail('deviceLost', this.lost);
+        if (error instanceof Refusal) return this.fail(error.code, error.message);
         const outOfMemory = error instanceof RangeError || error instanceof GPUOutOfMemoryError;
         return this.fail(outOfMemory ? 'outOfMemory' : 'internal', `The browser refuses: ${error.message}`);
     }
@@ -142,7 +156,34 @@ export class Bridge {
     buffer(desc) { return this.device.createBuffer(desc); }
 
     texture(desc) {
+        if (desc.adopted !== undefined) return this.imported(desc);
         return {handle: this.device.createTexture(desc), format: desc.format, views: new Map(), imported: false};
+    }
+
+    /// The number by which a texture of the host's is imported (webgpu::HostTexture).
+    adopt(texture) { return this.textures.push(texture) - 1; }
+
+    /// What was imported by the number stays.
+    release(number) {
+        this.textures[number] = undefined;
+        while (this.textures.length > 0 && !this.textures.at(-1)) this.textures.pop();
+    }
+
+    imported({label, size: [width, height], format, usage, mipLevelCount, sampleCount, adopted}) {
+        const handle = this.textures[adopted];
+        const refuse = sentence => { throw new Refusal('unsupported', `[Texture "${label}"] cannot be imported: ${sentence}`); };
+        if (!handle) refuse(`the page has adopted no texture by the number ${adopted}.`);
+        const words = (w, h, f, levels, samples) => `${w} x ${h} texels of ${f}, mip levels: ${levels}, samples: ${samples}`;
+        const said = words(width, height, format, mipLevelCount, sampleCount);
+        const is = words(handle.width, handle.height, handle.format, handle.mipLevelCount, handle.sampleCount);
+        if (said !== is) refuse(`it has ${is}, not ${said}.`);
+        if (handle.dimension !== '2d' || handle.depthOrArrayLayers !== 1) {
+            refuse(`it has ${handle.depthOrArrayLayers} layers of dimension ${handle.dimension} instead of one of dimension 2d.`);
+        }
+        if ((handle.usage & usage) !== usage) {
+            refuse(`its usage is ${handle.usage} and lacks some of ${usage} (GPUTextureUsage).`);
+        }
+        return {handle, format, views: new Map(), imported: true};
     }
 
     sampler(desc) { return this.device.createSampler(desc); }
@@ -278,8 +319,14 @@ export class Bridge {
 
     submit(memory, place, count) {
         return this.attempt(() => {
-            const encoder = this.device.createCommandEncoder();
-            this.record(encoder, new Words(memory, place, count, this));
+            const words = new Words(memory, place, count, this);
+            const label = words.string();
+            if (this.encoder) {
+                this.record(this.encoder, words);
+                return;
+            }
+            const encoder = this.device.createCommandEncoder({label});
+            this.record(encoder, words);
             this.device.queue.submit([encoder.finish()]);
         });
     }
@@ -287,7 +334,6 @@ export class Bridge {
     record(encoder, words) {
         let pass = null;
         let debug = encoder;
-        encoder.label = words.string();
         while (!words.ended()) {
             switch (words.u32()) {  // as the alternatives of gpu::Command
                 case 0:

@@ -65,6 +65,15 @@ Json target_of(const gpu::ColorTargetState& target) {
     return json;
 }
 
+Json texture_of(const gpu::TextureDesc& desc) {
+    return {{"label", desc.label},
+            {"size", Json::array({desc.width, desc.height})},
+            {"format", to_webgpu(desc.format)},
+            {"usage", to_webgpu(desc.usage)},
+            {"mipLevelCount", desc.mip_level_count},
+            {"sampleCount", desc.sample_count}};
+}
+
 Json vertex_buffer_of(const gpu::VertexBufferLayout& layout) {
     Json attributes = Json::array();
     for (const gpu::VertexAttribute& attribute : layout.attributes) {
@@ -88,13 +97,12 @@ std::string describe(const gpu::BufferDesc& desc) {
     return text_of({{"label", desc.label}, {"size", desc.size}, {"usage", to_webgpu(desc.usage)}});
 }
 
-std::string describe(const gpu::TextureDesc& desc) {
-    return text_of({{"label", desc.label},
-                    {"size", Json::array({desc.width, desc.height})},
-                    {"format", to_webgpu(desc.format)},
-                    {"usage", to_webgpu(desc.usage)},
-                    {"mipLevelCount", desc.mip_level_count},
-                    {"sampleCount", desc.sample_count}});
+std::string describe(const gpu::TextureDesc& desc) { return text_of(texture_of(desc)); }
+
+std::string describe(const gpu::TextureDesc& desc, std::uint32_t adopted) {
+    Json json = texture_of(desc);
+    json["adopted"] = adopted;
+    return text_of(json);
 }
 
 std::string describe(const gpu::SamplerDesc& desc) {

@@ -44,6 +44,17 @@ Status check_target(const gpu::Device& device, const GuestPassDesc& desc, const 
     return {};
 }
 
+Status check_rows(const gpu::Device& device, const GuestPassDesc& desc, const std::string& who) {
+    // Elsewhere it depends on who draws: a gpu::Device's own passes have the first row on top, too.
+    if (device.caps().backend != "webgpu" || desc.conventions.rows == shadows::HostRows::FromOne) {
+        return {};
+    }
+    return fail(ErrorCode::InvalidInput,
+                "HostConventions::rows of " + who +
+                    " is FromMinusOne, but on WebGPU the first row is where y / w is 1: set it to "
+                    "FromOne.");
+}
+
 Status check_clip_space(const gpu::Device& device, const GuestPassDesc& desc,
                         const std::string& who) {
     const bool said = desc.conventions.depth == HostDepth::MinusOneToOne;
@@ -81,6 +92,7 @@ Status check_guest(const gpu::Device& device, const GuestPassDesc& desc, const s
         return forward_error(
             shadows::view_of_host(glm::dmat4(1.0), glm::dmat4(1.0), desc.conventions));
     }
+    if (const Status checked = check_rows(device, desc, who); !checked) return checked;
     return check_clip_space(device, desc, who);
 }
 
@@ -96,11 +108,13 @@ ShadowPassDesc shadow_pass_of(const GuestPassDesc& desc, std::vector<gpu::Format
 Status check_view(const GuestPassDesc& desc, const shadows::HostView& view,
                   const std::string& who) {
     if (view.conventions.reversed == desc.conventions.reversed &&
-        view.conventions.depth == desc.conventions.depth) {
+        view.conventions.depth == desc.conventions.depth &&
+        view.conventions.rows == desc.conventions.rows) {
         return {};
     }
-    return fail(ErrorCode::InvalidInput, "The view's conventions of depth are not those of " + who +
-                                             ": make another where they change.");
+    return fail(ErrorCode::InvalidInput,
+                "The view's conventions of depth or rows are not those of " + who +
+                    ": make another where they change.");
 }
 
 Status check_lights(std::optional<std::size_t> lights, std::size_t first, std::size_t count,

@@ -136,8 +136,10 @@ Result<HostView> view_of_host(const glm::dmat4& view_from_world, const glm::dmat
         return fail(ErrorCode::InvalidInput,
                     "clip_from_view gives one depth to everything: it is no projection.");
     }
-    negate_y(ours);
-    negate_y(clip);
+    if (conventions.rows == HostRows::FromMinusOne) {
+        negate_y(ours);
+        negate_y(clip);
+    }
     return HostView{
         .view = {view, ours, kind}, .as_drawn = {view, clip, kind}, .conventions = conventions};
 }

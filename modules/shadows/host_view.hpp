@@ -22,19 +22,27 @@ enum class HostDepth : std::uint8_t {
     Logarithmic,    ///< fragments write another depth: refused
 };
 
+/// Which row of the framebuffer is the first one in memory.
+enum class HostRows : std::uint8_t {
+    FromMinusOne,  ///< where y / w is -1: OpenGL's and Vulkan's
+    FromOne,       ///< where it is 1: WebGPU's, and that of passes of a gpu::Device
+};
+
 /// What does not change from frame to frame.
 struct HostConventions {
     HostDepth depth = HostDepth::MinusOneToOne;  ///< the range of z / w
     bool reversed = false;  ///< the greater depth is nearer to the eye, and depth is cleared to 0
+    HostRows rows = HostRows::FromMinusOne;  ///< where rows are counted from
 };
 
 /// A host's camera, in gnomon's words and in its own.
 struct HostView {
     /// For ShadowSystem::finish(). Depth is gnomon's (1 near, 0 far). Rows are counted as the
-    /// host's framebuffer stores them, so its y is the host's negated.
+    /// host's framebuffer stores them, so its y is the host's negated, but for HostRows::FromOne.
     View view;
-    /// For drawing with vertex stages of gnomon's, which negate y as their last act: clip positions
-    /// are then those of the host's matrices.
+    /// For drawing with vertex stages of gnomon's: clip positions are then those of the host's
+    /// matrices. Where rows begin at -1 the stages negate y as their last act, so here it is
+    /// negated already.
     View as_drawn;
     HostConventions conventions;  ///< as they were given
 };

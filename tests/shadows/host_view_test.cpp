@@ -69,6 +69,19 @@ TEST(HostView, every_convention_comes_to_the_same_view) {
     }
 }
 
+TEST(HostView, rows_from_one_leave_y_alone) {
+    const glm::dmat4 clip = infinite_perspective(0.8, 1.5, 0.1);
+    for (const bool reversed : {false, true}) {
+        const HostConventions conventions{HostDepth::ZeroToOne, reversed, HostRows::FromOne};
+        const glm::dmat4 host_clip = in_the_hosts_way(clip, conventions);
+        const auto got = view_of_host(view_matrix, host_clip, conventions);
+        ASSERT_TRUE(got) << got.error().message;
+        expect_near(got->view.clip_from_view, clip);
+        EXPECT_FALSE(is_mirrored(got->as_drawn));
+        EXPECT_EQ(got->as_drawn.clip_from_world(), host_clip * view_matrix);
+    }
+}
+
 TEST(HostView, what_points_down_is_not_mirrored_when_it_is_drawn) {
     const HostConventions conventions{HostDepth::ZeroToOne, true};
     const auto got =

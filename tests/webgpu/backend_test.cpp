@@ -71,6 +71,35 @@ TEST_F(WebGpu, ABindGroupIsDescribedWithItsLayout) {
               R"("aspect":"all"},{"binding":103,"sampler":0}]})");
 }
 
+TEST_F(WebGpu, ATextureOfAHostsIsImportedByItsNumber) {
+    const gpu::TextureDesc desc{.label = "t",
+                                .width = 4,
+                                .height = 4,
+                                .format = gpu::Format::Depth32FloatStencil8,
+                                .usage = gpu::TextureUsage::RenderAttachment};
+    {
+        const auto texture = device_->import_texture(desc, HostTexture{.number = 3});
+        ASSERT_TRUE(texture) << texture.error().message;
+        EXPECT_EQ(device_->clip_depth_of(*texture), gpu::ClipDepth::ZeroToOne);
+        EXPECT_TRUE(device_->takes_colors_beside(*texture));
+    }
+    EXPECT_THAT(
+        recording_.calls,
+        ElementsAre(R"(create 1 0 {"label":"t","size":[4,4],"format":"depth32float-stencil8",)"
+                    R"("usage":16,"mipLevelCount":1,"sampleCount":1,"adopted":3})",
+                    "destroy 1 0"));
+    const auto none = device_->import_texture(desc, 3);
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message,
+                StartsWith("[Texture \"t\"] cannot be imported: what WebGPU imports is a "));
+    recording_.outcome = Outcome::Unsupported;
+    recording_.error = "[Texture \"t\"] cannot be imported: it has 8 x 8 texels.";
+    const auto refused = device_->import_texture(desc, HostTexture{.number = 3});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
+    EXPECT_EQ(refused.error().message, recording_.error);
+}
+
 TEST_F(WebGpu, AShaderNeedsWgsl) {
     const auto missing = device_->create_shader(
         {.label = "s", .stage = gpu::ShaderStage::Vertex, .source = {.glsl = "void main() {}"}});

@@ -34,6 +34,18 @@ TEST(Objects, Texture) {
                     "mipLevelCount": 1, "sampleCount": 4})");
 }
 
+TEST(Objects, ATextureOfAHostsHasTheNumberThatThePageAdoptedItBy) {
+    expect_json(
+        describe(gpu::TextureDesc{.label = "t",
+                                  .width = 3,
+                                  .height = 2,
+                                  .format = gpu::Format::R32Uint,
+                                  .usage = gpu::TextureUsage::RenderAttachment},
+                 7),
+        R"({"label": "t", "size": [3, 2], "format": "r32uint", "usage": 16, "mipLevelCount": 1,
+            "sampleCount": 1, "adopted": 7})");
+}
+
 TEST(Objects, Sampler) {
     expect_json(describe(gpu::SamplerDesc{.label = "s",
                                           .address_mode_u = gpu::AddressMode::MirrorRepeat,

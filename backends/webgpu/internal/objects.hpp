@@ -20,6 +20,8 @@ inline constexpr std::uint32_t sampler_binding_offset = 100;
 
 [[nodiscard]] std::string describe(const gpu::BufferDesc& desc);
 [[nodiscard]] std::string describe(const gpu::TextureDesc& desc);
+/// `adopted`: a host's, by the number that HostTexture has.
+[[nodiscard]] std::string describe(const gpu::TextureDesc& desc, std::uint32_t adopted);
 [[nodiscard]] std::string describe(const gpu::SamplerDesc& desc);
 [[nodiscard]] std::string describe(const gpu::ShaderDesc& desc);
 [[nodiscard]] std::string describe(const gpu::BindGroupLayoutDesc& desc);

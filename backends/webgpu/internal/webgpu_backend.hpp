@@ -27,6 +27,8 @@ public:
 
     Status create_buffer(gpu::BufferId id, const gpu::BufferDesc& desc) override;
     Status create_texture(gpu::TextureId id, const gpu::TextureDesc& desc) override;
+    Status import_texture(gpu::TextureId id, const gpu::TextureDesc& desc,
+                          const gpu::NativeTexture& native) override;
     Status create_sampler(gpu::SamplerId id, const gpu::SamplerDesc& desc) override;
     Status create_shader(gpu::ShaderId id, const gpu::ShaderDesc& desc) override;
     Status create_bind_group_layout(gpu::BindGroupLayoutId id,
