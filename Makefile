@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build play demo test soak web web-serve web-test web-bench bench peers savings report docs package install format tidy clean FORCE
+.PHONY: help setup build play demo test soak web web-serve web-test web-bench npm web-examples bench peers savings report docs package install format tidy clean FORCE
 
 help: ## this list
 	@echo "gnomon: exact hard shadows. Targets:"
@@ -68,6 +68,14 @@ web: build/web/build.ninja ## the viewer as a page, by Emscripten: build/web/sit
 
 web-serve: web ## serve the page on this machine's loopback until interrupted
 	@node tests/web/server.mjs build/web/site 8080
+
+npm: build/web/build.ninja ## the package for pages with a WebGPU renderer of their own: build/web/npm, for `npm pack`
+	@cmake --build build/web --target gnomon_npm
+	@echo "package: build/web/npm; cd there and npm pack"
+
+web-examples: npm ## serve the package's examples on this machine's loopback until interrupted
+	@[ -d build/web/examples/node_modules/three ] || echo "three/ needs three.js: npm install --prefix build/web/examples"
+	@node tests/web/server.mjs build/web/examples 8080
 
 # The browser draws first; then what it drew is judged by the tests of the ordinary build.
 web-test: build/web/build.ninja build/build.ninja ## the tests in a real browser, and its masks against Vulkan's and the truth

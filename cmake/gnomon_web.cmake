@@ -50,18 +50,25 @@ add_compile_options(-fwasm-exceptions)
 add_link_options(-fwasm-exceptions)
 
 # gnomon_add_web_program(<name> SOURCES ... LIBRARIES ...): an ES module, <name>.mjs and <name>.wasm, whose default export
-# makes an instance.
+# makes an instance. WITHOUT_FILES: nor is there a file system in it.
 function(gnomon_add_web_program name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "WITHOUT_FILES" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE gnomon_compile_options ${ARG_LIBRARIES})
-  gnomon_link_for_the_web(${name})
+  if(ARG_WITHOUT_FILES)
+    gnomon_link_for_the_web(${name} WITHOUT_FILES)
+  else()
+    gnomon_link_for_the_web(${name})
+  endif()
 endfunction()
 
 function(gnomon_link_for_the_web target)
+  set(files -sFILESYSTEM=1 -sEXPORTED_RUNTIME_METHODS=FS,ENV,UTF8ToString,stringToUTF8,lengthBytesUTF8)
+  if("WITHOUT_FILES" IN_LIST ARGN)
+    set(files -sFILESYSTEM=0 -sEXPORTED_RUNTIME_METHODS=UTF8ToString)
+  endif()
   set_target_properties(${target} PROPERTIES SUFFIX .mjs)
   target_link_options(${target} PRIVATE
     -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker -sALLOW_MEMORY_GROWTH=1
-    -sTOTAL_STACK=1MB -sFILESYSTEM=1 -sINVOKE_RUN=0 -sEXIT_RUNTIME=0
-    -sEXPORTED_RUNTIME_METHODS=FS,ENV,UTF8ToString,stringToUTF8,lengthBytesUTF8)
+    -sTOTAL_STACK=1MB -sINVOKE_RUN=0 -sEXIT_RUNTIME=0 ${files})
 endfunction()
