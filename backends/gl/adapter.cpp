@@ -133,6 +133,7 @@ gpu::Features read_features(const GlFunctions& gl, const Extensions& extensions)
                              has_four_samples(gl, gpu::Format::Rgba8Unorm) &&
                              has_four_samples(gl, gpu::Format::Depth24UnormStencil8) &&
                              has_four_samples(gl, gpu::Format::Depth32FloatStencil8);
+    features.multisample_32bit = features.multisample_4;
     features.sample_shading = extensions.has("GL_ARB_sample_shading", 4, 0);
     features.sampled_stencil = extensions.has("GL_ARB_stencil_texturing", 4, 3);
     features.exact_clip_space = true;  // clip control was required above

@@ -161,6 +161,7 @@ gpu::Features find_features(const Instance& instance, const Adapter& adapter,
         limits.framebufferStencilSampleCounts & limits.sampledImageColorSampleCounts &
         limits.sampledImageDepthSampleCounts & limits.sampledImageStencilSampleCounts;
     f.multisample_4 = (counts & VK_SAMPLE_COUNT_4_BIT) != 0;
+    f.multisample_32bit = f.multisample_4;
     f.sample_shading = adapter.enabled.sampleRateShading == VK_TRUE;
     f.exact_clip_space = true;
     return f;

@@ -64,6 +64,7 @@ Result<gpu::Caps> read_caps(std::string_view description,
     caps.features.occlusion_query = false;
     caps.features.depth32float_stencil8 = true;
     caps.features.multisample_4 = !contains(disabled_features, "multisample");
+    caps.features.multisample_32bit = false;
     caps.features.sample_shading = true;
     caps.features.sampled_stencil = !contains(disabled_features, "sampled-stencil");
     caps.features.exact_clip_space = true;

@@ -19,8 +19,10 @@ struct Features {
     bool occlusion_query = false;        ///< exact sample counts
     bool depth24unorm_stencil8 = false;  ///< Format::Depth24UnormStencil8
     bool depth32float_stencil8 = false;  ///< Format::Depth32FloatStencil8
-    bool multisample_4 = false;   ///< four samples, per-sample fetch of colour and stencil included
-    bool sample_shading = false;  ///< a shader may run once a sample (gl_SampleID)
+    bool multisample_4 = false;  ///< four samples, per-sample fetch of colour and stencil included
+    /// R32Uint, Rgba32Uint and Rgba32Float may have four samples as well (not in WebGPU).
+    bool multisample_32bit = false;
+    bool sample_shading = false;   ///< a shader may run once a sample (gl_SampleID)
     bool sampled_stencil = false;  ///< a shader may read the stencil aspect
     bool exact_clip_space =
         false;  ///< z in 0..1 and row 0 on top without any flip: masks can be byte-equal

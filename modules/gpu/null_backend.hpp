@@ -22,6 +22,7 @@ struct NullBackendOptions {
                          .depth24unorm_stencil8 = true,
                          .depth32float_stencil8 = true,
                          .multisample_4 = true,
+                         .multisample_32bit = true,
                          .sample_shading = true,
                          .sampled_stencil = true,
                          .exact_clip_space = true};

@@ -55,7 +55,8 @@ public:
     /// The device must outlive it. Fails as GuestPass::create() does, with
     /// ErrorCode::InvalidInput for masks that are not as LightMasksDesc::masks says, and with
     /// Unsupported where no colours can be drawn beside the host's depth (LightMasksDesc::host), or
-    /// for bits of four samples without Features::sample_shading. Makes a texture of its own: four
+    /// for bits of four samples without Features::sample_shading (there are none at all without
+    /// Features::multisample_32bit). Makes a texture of its own: four
     /// bytes a sample for bits, one a sample for shares.
     [[nodiscard]] static Result<LightMasks> create(gpu::Device& device, const LightMasksDesc& desc);
     LightMasks(LightMasks&&) noexcept;

@@ -94,6 +94,11 @@ TEST(Descriptor, TextureFormatsAreThoseOfTheAdapter) {
                        .create_texture(target_desc("t", Format::Rgba8Unorm, 4)),
                    "The sample count of [Texture \"t\"] is 4, but this adapter has no "
                    "multisample_4. While creating [Texture \"t\"].");
+    Device narrow = device_without(&Features::multisample_32bit);
+    expect_outcome(narrow.create_texture(target_desc("t", Format::R32Float, 4)), valid);
+    expect_outcome(narrow.create_texture(target_desc("t", Format::R32Uint, 4)),
+                   "The sample count of [Texture \"t\"] is 4, but its format is R32Uint and this "
+                   "adapter has no multisample_32bit. While creating [Texture \"t\"].");
 }
 
 TEST(Descriptor, SamplersAreAlwaysValid) {

@@ -13,6 +13,12 @@ bool only_known_bits(Bits set, std::uint32_t known) {
     return (static_cast<std::uint32_t>(set) & ~known) == 0;
 }
 
+// Which WebGPU gives one sample alone.
+bool has_wide_channels(Format format) {
+    return format == Format::R32Uint || format == Format::Rgba32Uint ||
+           format == Format::Rgba32Float;
+}
+
 constexpr std::uint32_t max_queries = 4096;  // WebGPU's maxQuerySetSize
 
 }  // namespace
@@ -83,6 +89,12 @@ Result<TextureDesc> validate(DeviceState& device, const TextureDesc& desc) {
         return forward_error(s);
     }
     if (desc.sample_count > 1) {
+        if (has_wide_channels(desc.format) && !device.caps().features.multisample_32bit) {
+            return invalid(
+                "The sample count of {} is 4, but its format is {} and this adapter has no "
+                "multisample_32bit.",
+                name, to_text(desc.format));
+        }
         if (desc.mip_level_count != 1) {
             return invalid("{} is multisampled, but has {} mip levels instead of 1.", name,
                            desc.mip_level_count);
