@@ -49,6 +49,9 @@ set(CMAKE_CXX_LINKER_LAUNCHER ${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodej
 add_compile_options(-fwasm-exceptions)
 add_link_options(-fwasm-exceptions)
 
+# What is downloaded says nothing of the machine that it was made on.
+add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+
 # gnomon_add_web_program(<name> SOURCES ... LIBRARIES ...): an ES module, <name>.mjs and <name>.wasm, whose default export
 # makes an instance. WITHOUT_FILES: nor is there a file system in it.
 function(gnomon_add_web_program name)
