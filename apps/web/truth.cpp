@@ -4,8 +4,10 @@
 // view is checked and not before. It has a job, and judges rows of it. A worker has one module and
 // a module one job.
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <emscripten/emscripten.h>
 #include <fmt/format.h>
@@ -28,11 +30,15 @@ EMSCRIPTEN_KEEPALIVE const char* gnomon_truth_begin(const std::uint8_t* job, std
                                                     std::size_t masks_size) {
     bench.reset();
     answer.clear();
-    auto made = gnomon::web::TruthBench::create({job, job_size}, {masks, masks + masks_size});
-    if (made) {
-        bench.emplace(std::move(*made));
-    } else {
-        answer = made.error().message;
+    try {
+        auto made = gnomon::web::TruthBench::create({job, job_size}, {masks, masks + masks_size});
+        if (made) {
+            bench.emplace(std::move(*made));
+        } else {
+            answer = made.error().message;
+        }
+    } catch (const std::bad_alloc&) {
+        answer = "There is not enough memory for the truth of this view.";
     }
     return answer.c_str();
 }

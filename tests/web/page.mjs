@@ -405,6 +405,19 @@ claim('fingers turn the camera, move it and bring it closer', async visitor => {
     assert.equal(await visitor.note(), '');
 }, {...phone, scale: 1});
 
+claim('orders that make no sense are refused in a sentence', async visitor => {
+    const refusal = (what, order) => visitor.evaluate(
+        `gnomon.core.obey('${what}', ${JSON.stringify(order)}).then(() => 'done', error => error.message)`);
+    assert.match(await refusal('dance', {}), /^There is no order "dance"\.$/);
+    assert.match(await refusal('zoom', {notches: 'many'}), /^The order cannot be read: .*\.$/);
+    assert.match(await refusal('light', {place: 99}), /^There is no light 99: the scene has \d+\.$/);
+    assert.match(await refusal('masks', {techniques: []}), /nothing to check\.$/);
+    assert.match(await refusal('masks', {techniques: [7]}), /^The order cannot be read: .*\.$/);
+    const figures = await visitor.nextFrame();
+    assert.ok(Number(figures.pairs) > 0);
+    assert.equal(await visitor.note(), '');
+});
+
 // Capabilities that are nice to have, each by itself and all together.
 const noPromises = 'delete WebAssembly.Suspending; delete WebAssembly.promising;';
 const optional = ['depth-clip-control', 'timestamp-query', 'float32-filterable'];

@@ -13,6 +13,7 @@ const mostFramesOfRound = 10;
 const measuringMs = 10_000;  // for all techniques together, where frames are not slower than that
 const pixelsOfPart = 20_000;
 const mostWorkers = 4;
+const mostBytes = 512 * 2 ** 20;  // of all workers, each of which has a copy
 const mostRings = 200;
 
 // "none" is drawn without shadows: what all of them are compared with.
@@ -39,7 +40,8 @@ class Tracing {
         this.rowsOfPart = Math.max(1, Math.round(pixelsOfPart / (width * samples * lights)));
         const parts = Math.ceil(height / this.rowsOfPart);
         const spare = Math.max(1, (navigator.hardwareConcurrency || 2) - 1);
-        this.count = Math.min(spare, mostWorkers, parts);
+        const copies = Math.max(1, Math.floor(mostBytes / (bytes.job.byteLength + bytes.masks.byteLength)));
+        this.count = Math.min(spare, mostWorkers, parts, copies);
         this.workers = [];
     }
 
