@@ -4,8 +4,8 @@
 // Vulkan as browsers do. Both waits for the device belong to a frame. Prints a line of JSON for
 // each scene and motion; gnomon-web-frames runs both in turn and compares. It judges nothing: the
 // masks of the two are held against each other by tests/web.
-#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -95,50 +95,29 @@ public:
           lights_(lights_of(scene)) {}
 
     Status draw(const std::string& name, Motion motion) {
-        std::vector<double> shadows_ms;
-        std::vector<double> record_ms;
-        if (const Status warm = draw(warm_frames, motion, shadows_ms, record_ms); !warm) {
-            return warm;
-        }
-        shadows_ms.clear();
-        record_ms.clear();
+        if (const Status warm = draw(warm_frames, motion); !warm) return warm;
         const auto start = std::chrono::steady_clock::now();
-        if (const Status done = draw(frames, motion, shadows_ms, record_ms); !done) return done;
-        std::printf(
-            "{\"scene\": \"%s\", \"motion\": \"%s\", \"shadows_ms\": %.4f, \"record_ms\": %.4f, "
-            "\"frame_ms\": %.4f}\n",
-            name.c_str(), to_string(motion), median(shadows_ms), median(record_ms),
-            milliseconds_since(start) / frames);
+        if (const Status done = draw(frames, motion); !done) return done;
+        const std::chrono::duration<double, std::milli> took =
+            std::chrono::steady_clock::now() - start;
+        std::printf("{\"scene\": \"%s\", \"motion\": \"%s\", \"frame_ms\": %.4f}\n", name.c_str(),
+                    to_string(motion), took.count() / frames);
         return {};
     }
 
 private:
-    static double milliseconds_since(std::chrono::steady_clock::time_point start) {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-            .count();
-    }
-
-    static double median(std::vector<double>& values) {
-        std::sort(values.begin(), values.end());
-        return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2.0;
-    }
-
     /// One after the other; then waits for the device.
-    Status draw(int count, Motion motion, std::vector<double>& shadows_ms,
-                std::vector<double>& record_ms) {
+    Status draw(int count, Motion motion) {
         const glm::dvec3 middle = scene::world_bounds(scene_).center();
         for (int i = 0; i < count; ++i) {
             move(motion, middle);
-            const auto start = std::chrono::steady_clock::now();
             scene::update_world_transforms(scene_.registry);
             auto frame = system_.begin_frame();
             if (const Status done = adapter_.submit(scene_, frame); !done) return done;
             const shadows::DrawList& volumes = std::move(frame).finish(view_);
-            shadows_ms.push_back(milliseconds_since(start));
             if (const Status drawn = renderer_.render({scene_, view_, volumes}); !drawn) {
                 return drawn;
             }
-            record_ms.push_back(renderer_.times().record_ms);
         }
         return device_.wait_idle();
     }
