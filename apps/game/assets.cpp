@@ -10,19 +10,32 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "recording.hpp"
+#include "files.hpp"
 
 namespace gnomon::game {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> playing_order{"courtyard", "barracks", "dockyard"};
+constexpr std::size_t most_level_bytes = 1U << 20U;
+constexpr std::size_t most_recording_bytes = 8U << 20U;
 
 std::size_t place_in_order(const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(playing_order, name) - playing_order.begin());
 }
 
 }  // namespace
+
+Result<Level> load_level(const std::filesystem::path& path) {
+    const auto text = cli::read_file(path, "the level", most_level_bytes);
+    if (!text) return forward_error(text);
+    return read_level(*text, path.string());
+}
+
+Result<Recording> load_recording(const std::filesystem::path& path) {
+    const auto text = cli::read_file(path, "the recording", most_recording_bytes);
+    if (!text) return forward_error(text);
+    return read_recording(*text, path.string());
+}
 
 std::filesystem::path assets_folder() {
     std::error_code error;

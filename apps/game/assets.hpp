@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Where levels and recordings lie: beside the program, in share/gnomon/game, both where it was
-// built and where it was installed, wherever that has been moved to.
+// Levels and recordings as files, and where they lie: beside the program, in share/gnomon/game,
+// both where it was built and where it was installed, wherever that has been moved to. What is in
+// them is level.hpp's and recording.hpp's.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +12,17 @@
 #include <gnomon/core/result.hpp>
 
 #include "level.hpp"
+#include "recording.hpp"
 
 namespace gnomon::game {
+
+/// Fails as read_level(), and with ErrorCode::Io where the file cannot be read or has more than a
+/// mebibyte.
+[[nodiscard]] Result<Level> load_level(const std::filesystem::path& path);
+
+/// Fails as read_recording(), and with ErrorCode::Io where the file cannot be read or has more than
+/// eight mebibytes.
+[[nodiscard]] Result<Recording> load_recording(const std::filesystem::path& path);
 
 /// The folder that holds levels/; may be missing.
 [[nodiscard]] std::filesystem::path assets_folder();

@@ -20,7 +20,7 @@
 #include "size_text.hpp"
 #if GNOMON_HAS_PLAY
 #include "play/play_options.hpp"
-#include "play/settings.hpp"
+#include "play/settings_file.hpp"
 #endif
 
 namespace gnomon::game {

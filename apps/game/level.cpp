@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "files.hpp"
 #include "json_place.hpp"
 
 namespace gnomon::game {
@@ -17,7 +16,6 @@ constexpr double farthest_m = 200.0;
 constexpr std::size_t most_things = 200;
 constexpr std::size_t most_points = 64;
 constexpr double least_step_m = 0.05;  // of paths and walls
-constexpr std::size_t most_bytes = 1U << 20U;
 
 glm::vec3 color_of(const JsonPlace& place) { return glm::vec3(place.vec3(0.0, 4.0)); }
 
@@ -317,12 +315,6 @@ Result<Level> read_level(std::string_view text, const std::string& file) {
     } catch (const BadLevel& bad) {
         return fail(ErrorCode::InvalidInput, bad.sentence);
     }
-}
-
-Result<Level> load_level(const std::filesystem::path& path) {
-    const auto text = cli::read_file(path, "the level", most_bytes);
-    if (!text) return forward_error(text);
-    return read_level(*text, path.string());
 }
 
 }  // namespace gnomon::game

@@ -6,8 +6,8 @@
 // east (+X). The format is described in docs/game.md.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -143,12 +143,11 @@ struct Level {
     std::vector<Wheel> wheels;
 };
 
+/// The names of the levels that the game comes with, in the order in which they are played.
+inline constexpr std::array<std::string_view, 3> playing_order{"courtyard", "barracks", "dockyard"};
+
 /// Reads a level from text; `file` is what errors call it. Fails with ErrorCode::InvalidInput, one
 /// sentence that names file, place, value and limit.
 [[nodiscard]] Result<Level> read_level(std::string_view text, const std::string& file);
-
-/// Fails as read_level, and with ErrorCode::Io where the file cannot be read or has more than a
-/// mebibyte.
-[[nodiscard]] Result<Level> load_level(const std::filesystem::path& path);
 
 }  // namespace gnomon::game

@@ -11,13 +11,10 @@
 
 #include <gnomon/core/expects.hpp>
 
-#include "files.hpp"
-
 namespace gnomon::game {
 
 namespace {
 
-constexpr std::size_t most_recording_bytes = 8U << 20U;
 constexpr std::string_view magic = "gnomon-replay";
 
 std::string letters_of(const Input& input) {
@@ -194,12 +191,6 @@ Result<Recording> read_recording(std::string_view text, const std::string& file)
         return reader.refuse("here is a line after the line \"end\", but that must be the last");
     }
     return recording;
-}
-
-Result<Recording> load_recording(const std::filesystem::path& path) {
-    const auto text = cli::read_file(path, "the recording", most_recording_bytes);
-    if (!text) return forward_error(text);
-    return read_recording(*text, path.string());
 }
 
 }  // namespace gnomon::game

@@ -15,7 +15,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,8 +45,5 @@ inline constexpr std::size_t most_ticks = 216000;
 /// The inverse of to_text(). Fails with ErrorCode::InvalidInput, one sentence that names `file`,
 /// line, value and limit; so does anything that follows the last line.
 [[nodiscard]] Result<Recording> read_recording(std::string_view text, const std::string& file);
-
-/// Fails as read_recording(), and with ErrorCode::Io.
-[[nodiscard]] Result<Recording> load_recording(const std::filesystem::path& path);
 
 }  // namespace gnomon::game

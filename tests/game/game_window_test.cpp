@@ -22,7 +22,7 @@
 
 #include "assets.hpp"
 #include "headless.hpp"
-#include "play/settings.hpp"
+#include "play/settings_file.hpp"
 #include "recording.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/devices.hpp"

@@ -5,6 +5,8 @@
 
 #include <ostream>
 
+#include "assets.hpp"
+
 namespace gnomon::game {
 namespace {
 

@@ -30,7 +30,7 @@ void choose(Screens& screens, Kind kind) {
 }
 
 TEST(Screens, begin_with_a_title_that_has_all_levels) {
-    const Screens screens(3);
+    const Screens screens({.levels = 3});
     EXPECT_EQ(screens.now(), Screen::Title);
     ASSERT_EQ(screens.items().size(), 5U);
     EXPECT_EQ(screens.items()[2], (MenuItem{Kind::Level, 2}));
@@ -40,7 +40,7 @@ TEST(Screens, begin_with_a_title_that_has_all_levels) {
 }
 
 TEST(Screens, go_round_at_both_ends_of_a_menu) {
-    Screens screens(3);
+    Screens screens({.levels = 3});
     EXPECT_EQ(screens.press(up), Order{});
     EXPECT_EQ(screens.selected(), 4U);
     EXPECT_EQ(screens.press(down), Order{});
@@ -48,7 +48,7 @@ TEST(Screens, go_round_at_both_ends_of_a_menu) {
 }
 
 TEST(Screens, begin_the_level_that_is_chosen) {
-    Screens screens(3);
+    Screens screens({.levels = 3});
     EXPECT_EQ(screens.press(down), Order{});
     EXPECT_EQ(screens.level(), 1U) << "which the title shows already";
     EXPECT_EQ(screens.press(accept), (Order{.kind = Deed::Begin, .level = 1}));
@@ -57,7 +57,7 @@ TEST(Screens, begin_the_level_that_is_chosen) {
 }
 
 TEST(Screens, take_what_the_mouse_points_at) {
-    Screens screens(3);
+    Screens screens({.levels = 3});
     EXPECT_EQ(screens.press({.pointed = 2}), Order{});
     EXPECT_EQ(screens.selected(), 2U);
     EXPECT_EQ(screens.press({.pointed = 99}), Order{});
@@ -67,7 +67,7 @@ TEST(Screens, take_what_the_mouse_points_at) {
 }
 
 TEST(Screens, one_key_too_many_does_not_quit) {
-    Screens screens(2);
+    Screens screens({.levels = 2});
     EXPECT_EQ(screens.press(escape), Order{});
     EXPECT_EQ(screens.items()[screens.selected()].kind, Kind::Quit);
     EXPECT_EQ(screens.press(escape), Order{});
@@ -75,7 +75,7 @@ TEST(Screens, one_key_too_many_does_not_quit) {
 }
 
 TEST(Screens, pause_and_go_on) {
-    Screens screens(2);
+    Screens screens({.levels = 2});
     screens.begin(1);
     EXPECT_EQ(screens.press(escape), Order{});
     EXPECT_EQ(screens.now(), Screen::Paused);
@@ -90,7 +90,7 @@ TEST(Screens, pause_and_go_on) {
 }
 
 TEST(Screens, a_recording_goes_on_where_nobody_looks) {
-    Screens screens(2, true);
+    Screens screens({.levels = 2, .watches = true});
     screens.begin(0);
     EXPECT_EQ(screens.press({.interrupted = true}), Order{});
     EXPECT_EQ(screens.now(), Screen::Playing);
@@ -99,7 +99,7 @@ TEST(Screens, a_recording_goes_on_where_nobody_looks) {
 }
 
 TEST(Screens, nothing_but_pause_and_restart_is_a_menu_press_while_playing) {
-    Screens screens(2);
+    Screens screens({.levels = 2});
     screens.begin(0);
     EXPECT_EQ(screens.press({.down = 1, .right = 1, .accept = true, .back = true, .pointed = 0}),
               Order{});
@@ -109,7 +109,7 @@ TEST(Screens, nothing_but_pause_and_restart_is_a_menu_press_while_playing) {
 }
 
 TEST(Screens, restart_and_leave_from_the_pause) {
-    Screens screens(2);
+    Screens screens({.levels = 2});
     screens.begin(1);
     EXPECT_EQ(screens.press(escape), Order{});
     choose(screens, Kind::Restart);
@@ -123,7 +123,7 @@ TEST(Screens, restart_and_leave_from_the_pause) {
 }
 
 TEST(Screens, a_level_that_is_won_leads_to_the_next_one_and_the_last_to_the_title) {
-    Screens screens(2);
+    Screens screens({.levels = 2});
     screens.begin(0);
     screens.ended(Outcome::Playing);
     EXPECT_EQ(screens.now(), Screen::Playing);
@@ -137,7 +137,7 @@ TEST(Screens, a_level_that_is_won_leads_to_the_next_one_and_the_last_to_the_titl
 }
 
 TEST(Screens, who_is_caught_tries_again) {
-    Screens screens(2);
+    Screens screens({.levels = 2});
     screens.begin(0);
     screens.ended(Outcome::Caught);
     EXPECT_EQ(screens.now(), Screen::Caught);
@@ -151,7 +151,7 @@ TEST(Screens, who_is_caught_tries_again) {
 }
 
 TEST(Screens, an_end_is_of_a_game_that_is_played) {
-    Screens screens(2);
+    Screens screens({.levels = 2});
     screens.ended(Outcome::Won);
     EXPECT_EQ(screens.now(), Screen::Title);
     screens.begin(0);
@@ -162,7 +162,7 @@ TEST(Screens, an_end_is_of_a_game_that_is_played) {
 
 TEST(Screens, settings_go_back_to_where_they_were_opened) {
     for (const bool from_pause : {false, true}) {
-        Screens screens(2);
+        Screens screens({.levels = 2});
         if (from_pause) {
             screens.begin(0);
             EXPECT_EQ(screens.press({.pause = true}), Order{});
@@ -186,7 +186,7 @@ TEST(Screens, settings_go_back_to_where_they_were_opened) {
 }
 
 TEST(Screens, settings_change_by_steps) {
-    Screens screens(1);
+    Screens screens({.levels = 1});
     choose(screens, Kind::Settings);
     EXPECT_EQ(screens.press(accept), Order{});
     for (std::size_t i = 0; i < all_settings.size(); ++i) {
@@ -201,7 +201,7 @@ TEST(Screens, settings_change_by_steps) {
 }
 
 TEST(Screens, a_recording_can_be_held_but_not_changed) {
-    Screens screens(2, true);
+    Screens screens({.levels = 2, .watches = true});
     screens.begin(1);
     EXPECT_EQ(screens.press({.restart = true}), Order{});
     screens.ended(Outcome::Won);
@@ -217,6 +217,35 @@ TEST(Screens, a_recording_can_be_held_but_not_changed) {
     EXPECT_EQ(screens.press(accept), (Order{.kind = Deed::Quit}));
 }
 
+TEST(Screens, a_title_that_offers_a_recording_comes_back_after_it) {
+    Screens screens({.levels = 1, .can_watch = true, .can_quit = false});
+    ASSERT_EQ(screens.items().size(), 3U);
+    choose(screens, Kind::Watch);
+    EXPECT_EQ(screens.press(accept), (Order{.kind = Deed::Watch}));
+    EXPECT_EQ(screens.now(), Screen::Playing);
+    EXPECT_TRUE(screens.watches());
+    EXPECT_EQ(screens.press({.restart = true}), Order{});
+    EXPECT_EQ(screens.press(escape), Order{});
+    choose(screens, Kind::ToTitle);
+    EXPECT_EQ(screens.press(accept), (Order{.kind = Deed::Leave}));
+    EXPECT_FALSE(screens.watches());
+    choose(screens, Kind::Watch);
+    EXPECT_EQ(screens.press(accept), (Order{.kind = Deed::Watch}));
+    screens.ended(Outcome::Won);
+    EXPECT_EQ(screens.now(), Screen::Playing) << "its end stands as long as whoever shows it likes";
+    EXPECT_EQ(screens.leave(), (Order{.kind = Deed::Leave}));
+    EXPECT_EQ(screens.now(), Screen::Title);
+    EXPECT_FALSE(screens.watches());
+}
+
+TEST(Screens, settings_are_those_that_there_are) {
+    Screens screens({.levels = 1, .settings = {Setting::Scale, Setting::Samples}});
+    choose(screens, Kind::Settings);
+    EXPECT_EQ(screens.press(accept), Order{});
+    ASSERT_EQ(screens.items().size(), 3U);
+    EXPECT_EQ(screens.items()[1].setting, Setting::Samples);
+}
+
 // Whatever is pressed, a menu has a line that is chosen, and a game none.
 TEST(Screens, hold_together_under_any_presses) {
     std::uint32_t state = 1;
@@ -224,7 +253,7 @@ TEST(Screens, hold_together_under_any_presses) {
         state = state * 1664525U + 1013904223U;
         return (state >> 16U) % sides;
     };
-    Screens screens(3);
+    Screens screens({.levels = 3});
     std::array<int, 6> seen{};
     for (int i = 0; i < 20000; ++i) {
         const Screen before = screens.now();

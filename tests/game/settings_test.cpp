@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "play/settings_file.hpp"
 #include "tests/support/paths.hpp"
 
 namespace gnomon::game {

@@ -41,7 +41,7 @@ Front::Front(const PlayOptions& options, std::vector<NamedLevel> levels, LoadedS
       settings_(std::move(settings.settings)),
       saved_(settings_),
       file_is_broken_(!settings.complaint.empty()),
-      screens_(levels_.size(), options.watched.has_value()),
+      screens_({.levels = levels_.size(), .watches = options.watched.has_value()}),
       window_(std::move(window)),
       script_(std::move(script)),
       capture_(std::move(capture)),

@@ -23,6 +23,7 @@
 #include "play/panel.hpp"
 #include "play/play_options.hpp"
 #include "play/session.hpp"
+#include "play/settings_file.hpp"
 #include "play/stepper.hpp"
 
 namespace gnomon::game {

@@ -11,6 +11,7 @@
 
 #include <gnomon/core/expects.hpp>
 
+#include "assets.hpp"
 #include "files.hpp"
 #include "play/front.hpp"
 #include "process_memory.hpp"
@@ -218,7 +219,8 @@ Status Front::save_picture(const std::filesystem::path& path) {
 
 Status Front::obey(const Order& order) {
     switch (order.kind) {
-        case Order::Kind::None: return {};
+        case Order::Kind::None:
+        case Order::Kind::Watch: return {};  // which nothing here offers
         case Order::Kind::Begin: return begin_level(order.level);
         case Order::Kind::Restart: return restart_level();
         case Order::Kind::Leave: return show_backdrop();

@@ -3,27 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include <fmt/format.h>
+#include "play/readout.hpp"
+#include "play/words.hpp"
 
 namespace gnomon::game {
 
 namespace {
-
-float faded(double from, double to, double value) {
-    const double share = std::clamp((value - from) / (to - from), 0.0, 1.0);
-    return static_cast<float>(share * share * (3.0 - 2.0 * share));
-}
-
-/// Where a point of the world is in the picture, in units; none where it is behind the eye.
-std::optional<glm::vec2> place_of(const Canvas& canvas, const shadows::View& view,
-                                  const glm::dvec3& point) {
-    const glm::dvec4 clip = view.clip_from_view * view.view_from_world * glm::dvec4(point, 1.0);
-    if (clip.w <= 0.0) return std::nullopt;
-    const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
-    return glm::vec2(glm::dvec2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y)) * canvas.size();
-}
 
 // The picture's border goes red.
 void draw_dread(const Canvas& canvas, double alarm) {
@@ -68,11 +54,10 @@ void draw_meter(const Canvas& canvas, const Meter& meter) {
     const glm::vec2 middle(canvas.size().x * 0.5F, canvas.size().y - 46.0F);
     const glm::vec2 card_half(width * 0.5F + 64.0F, 30.0F);
     canvas.fill(middle - card_half, middle + card_half, hue::night, 0.72F, 14.0F);
-    const glm::vec4 color =
-        meter.alarm > 0.02
-            ? glm::mix(hue::lamp, hue::alarm, static_cast<float>(std::min(1.0, 0.35 + meter.alarm)))
-        : meter.is_seen ? hue::lamp
-                        : hue::dim;
+    const double tint = alarm_tint(meter);
+    const glm::vec4 color = tint > 0.0 ? glm::mix(hue::lamp, hue::alarm, static_cast<float>(tint))
+                            : meter.is_seen ? hue::lamp
+                                            : hue::dim;
     const float left = middle.x - width * 0.5F + 6.0F;
     draw_eye(canvas, {left - 40.0F, middle.y}, static_cast<float>(meter.light), color);
 
@@ -92,46 +77,30 @@ void draw_meter(const Canvas& canvas, const Meter& meter) {
     canvas.fill({notch - 1.0F, top - 4.0F}, {notch + 1.0F, top + 14.0F}, hue::moon, 0.75F);
     bar(top + 17.0F, 6.0F, meter.alarm, hue::alarm);
     const ImFont* font = canvas.letters().text;
-    canvas.write(font, 13.0F, {left + width + 8.0F, top - 3.0F}, hue::dim, "light");
-    canvas.write(font, 13.0F, {left + width + 8.0F, top + 12.0F}, hue::dim, "alarm");
+    canvas.write(font, 13.0F, {left + width + 8.0F, top - 3.0F}, hue::dim, words::light);
+    canvas.write(font, 13.0F, {left + width + 8.0F, top + 12.0F}, hue::dim, words::alarm);
 }
 
 void draw_exit(const Canvas& canvas, const Level& level, const shadows::View& view) {
-    const glm::dvec3 over(level.exit.x, 1.5, level.exit.y);
-    const auto place = place_of(canvas, view, over);
-    const glm::vec2 size = canvas.size();
-    const glm::vec2 margin(64.0F, 64.0F);
-    if (place && place->x > margin.x && place->x < size.x - margin.x && place->y > margin.y &&
-        place->y < size.y - 96.0F) {
-        ImDrawList& list = canvas.list();
-        const glm::vec2 tip = *place;
-        list.AddTriangleFilled(canvas.px(tip), canvas.px(tip + glm::vec2(-8.0F, -11.0F)),
-                               canvas.px(tip + glm::vec2(8.0F, -11.0F)),
+    const auto mark = exit_mark(level, view, canvas.size());
+    if (!mark) return;
+    ImDrawList& list = canvas.list();
+    const glm::vec2 at = mark->at;
+    if (!mark->way) {
+        list.AddTriangleFilled(canvas.px(at), canvas.px(at + glm::vec2(-8.0F, -11.0F)),
+                               canvas.px(at + glm::vec2(8.0F, -11.0F)),
                                packed_hue(hue::exit, 0.9F));
         return;
     }
-    // Out of the picture: an arrow at its border, towards it as the ground is seen.
-    const glm::dvec3 in_view(view.view_from_world * glm::dvec4(over, 1.0));
-    glm::vec2 way(static_cast<float>(in_view.x), static_cast<float>(-in_view.y));
-    if (place) way = *place - size * 0.5F;
-    if (glm::length(way) < 1e-4F) return;
-    way = glm::normalize(way);
-    const glm::vec2 half = size * 0.5F - margin;
-    const float reach = std::min(half.x / std::max(std::abs(way.x), 1e-4F),
-                                 half.y / std::max(std::abs(way.y), 1e-4F));
-    const glm::vec2 at = size * 0.5F + way * reach;
+    // Out of the picture: an arrow at its border.
+    const glm::vec2 way = *mark->way;
     const glm::vec2 across(-way.y, way.x);
-    canvas.list().AddTriangleFilled(
-        canvas.px(at + way * 16.0F), canvas.px(at - way * 7.0F + across * 11.0F),
-        canvas.px(at - way * 7.0F - across * 11.0F), packed_hue(hue::exit, 0.9F));
+    list.AddTriangleFilled(canvas.px(at + way * 16.0F), canvas.px(at - way * 7.0F + across * 11.0F),
+                           canvas.px(at - way * 7.0F - across * 11.0F),
+                           packed_hue(hue::exit, 0.9F));
 }
 
 }  // namespace
-
-std::string clock_text(Tick ticks) {
-    const Tick tenths = ticks * 10 / ticks_a_second;
-    return fmt::format("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10);
-}
 
 void draw_hud(const Canvas& canvas, const Session& session, const shadows::View& view,
               const HudState& state) {
@@ -148,24 +117,21 @@ void draw_hud(const Canvas& canvas, const Session& session, const shadows::View&
     canvas.write(letters.text, 19.0F, {size.x - 24.0F, 18.0F}, hue::dim, clock_text(world.now()),
                  1.0F);
     if (state.watches) {
-        canvas.write(letters.text, 15.0F, {24.0F, 42.0F}, hue::lamp, "a recording");
+        canvas.write(letters.text, 15.0F, {24.0F, 42.0F}, hue::lamp, words::recording);
     }
 
     // The name first, large; then, for a while, what the level has to say.
-    const float name_alpha = faded(0.1, 0.6, state.shown_s) *
-                             (state.waits ? 1.0F : 1.0F - faded(2.0, 2.8, state.shown_s));
+    const Captions captions = captions_at(state.shown_s, state.waits);
+    const auto name_alpha = static_cast<float>(captions.name);
     if (name_alpha > 0.0F) {
         canvas.write(letters.bold, 40.0F, {size.x * 0.5F, size.y * 0.24F}, hue::moon, level.name,
                      0.5F, name_alpha);
     }
     if (state.waits) {
-        const auto pulse = static_cast<float>(0.75 + 0.25 * std::sin(state.shown_s * 4.0));
         canvas.write(letters.text, 19.0F, {size.x * 0.5F, size.y * 0.24F + 54.0F}, hue::lamp,
-                     "Your first step begins it", 0.5F, faded(1.0, 1.6, state.shown_s) * pulse);
+                     words::first_step, 0.5F, static_cast<float>(captions.first_step));
     }
-    // Until there was time to read it, and somebody has moved.
-    const float hint_alpha = faded(0.3, 0.9, state.shown_s) *
-                             (state.waits ? 1.0F : 1.0F - faded(13.0, 14.5, state.shown_s));
+    const auto hint_alpha = static_cast<float>(captions.hint);
     if (hint_alpha > 0.0F && !level.hint.empty()) {
         const float most = std::min(720.0F, size.x - 110.0F);
         // As many lines as it takes, all about as long.

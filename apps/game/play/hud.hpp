@@ -4,8 +4,6 @@
 // are, where the exit is, and what the level has to say.
 #pragma once
 
-#include <string>
-
 #include <gnomon/shadows/view.hpp>
 
 #include "play/canvas.hpp"
@@ -21,8 +19,5 @@ struct HudState {
 
 void draw_hud(const Canvas& canvas, const Session& session, const shadows::View& view,
               const HudState& state);
-
-/// "1:04.5"
-[[nodiscard]] std::string clock_text(Tick ticks);
 
 }  // namespace gnomon::game

@@ -2,14 +2,12 @@
 #include "play/pages.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "play/hud.hpp"
+#include "play/words.hpp"
 
 namespace gnomon::game {
 
@@ -21,56 +19,9 @@ constexpr float title_left = 84.0F;
 constexpr float settings_half = 330.0F;
 constexpr float pause_half = 420.0F;
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> keys{{
-    {"W A S D, arrows, left stick", "walk"},
-    {"Shift, right trigger", "run: quick, and loud"},
-    {"Ctrl or C, left trigger", "sneak, and duck"},
-    {"mouse, Q E, right stick", "turn the camera"},
-    {"wheel, bumpers", "come nearer"},
-    {"R", "begin the level anew"},
-    {"F1", "how the shadows are made"},
-    {"F2", "OpenGL or Vulkan"},
-    {"F11, F12", "full screen, picture"},
-}};
-
 std::string label_of(const MenuItem& item, const PageState& state) {
-    switch (item.kind) {
-        case Kind::Level: return state.levels[item.level].name;
-        case Kind::Settings: return "Settings";
-        case Kind::Quit: return "Quit";
-        case Kind::Resume: return "Go on";
-        case Kind::Restart: return "Once more";
-        case Kind::NextLevel: return "Next level";
-        case Kind::ToTitle: return "Back to the title";
-        case Kind::Back: return "Done";
-        case Kind::Setting: break;
-    }
-    switch (item.setting) {
-        case Setting::Backend: return "Drawn by";
-        case Setting::Fullscreen: return "Full screen";
-        case Setting::Vsync: return "Wait for the screen";
-        case Setting::Scale: return "Resolution";
-        case Setting::Samples: return "Samples a pixel";
-        case Setting::MouseSpeed: return "Mouse speed";
-        case Setting::MouseInverted: return "Mouse upside down";
-    }
-    return {};
-}
-
-std::string value_of(Setting setting, const PageState& state) {
-    const Settings& s = state.settings;
-    const auto yes = [](bool on) { return std::string(on ? "yes" : "no"); };
-    const bool vulkan = state.backend == "vk";
-    switch (setting) {
-        case Setting::Backend: return vulkan ? "Vulkan" : "OpenGL";
-        case Setting::Fullscreen: return yes(s.fullscreen);
-        case Setting::Vsync: return vulkan ? "always, with Vulkan" : yes(s.vsync);
-        case Setting::Scale: return fmt::format("{} %", s.scale_percent);
-        case Setting::Samples: return fmt::format("{}", s.samples);
-        case Setting::MouseSpeed: return fmt::format("{:.1f}", s.mouse_speed);
-        case Setting::MouseInverted: return yes(s.mouse_inverted);
-    }
-    return {};
+    const bool names_level = item.kind == Kind::Level;
+    return label_of(item, names_level ? std::string_view(state.levels[item.level].name) : "");
 }
 
 float risen(double time_s, double from_s, double length_s) {
@@ -112,7 +63,6 @@ void draw_item(const Canvas& canvas, const ItemBox& box, const std::string& labe
 
 // The name stands like a gnomon: its shadow goes round it.
 void draw_name(const Canvas& canvas, const glm::vec2& at, double time_s) {
-    constexpr std::string_view name = "GNOMON";
     constexpr float gap = 14.0F;
     constexpr int steps = 48;
     const double turn = 0.75 + 0.45 * std::sin(time_s * 0.22);
@@ -120,9 +70,11 @@ void draw_name(const Canvas& canvas, const glm::vec2& at, double time_s) {
     for (int i = steps; i > 0; --i) {
         const float far = static_cast<float>(i) / steps;
         canvas.write_spaced(canvas.letters().title, Lettering::title_size, at + way * (far * 74.0F),
-                            {0.0F, 0.0F, 0.01F, 1.0F}, name, gap, 0.0F, 0.22F * (1.0F - far));
+                            {0.0F, 0.0F, 0.01F, 1.0F}, words::name, gap, 0.0F,
+                            0.22F * (1.0F - far));
     }
-    canvas.write_spaced(canvas.letters().title, Lettering::title_size, at, hue::lamp, name, gap);
+    canvas.write_spaced(canvas.letters().title, Lettering::title_size, at, hue::lamp, words::name,
+                        gap);
 }
 
 void draw_title(const Canvas& canvas, const Screens& screens, const PageState& state,
@@ -133,8 +85,7 @@ void draw_title(const Canvas& canvas, const Screens& screens, const PageState& s
     canvas.fade_across({0.0F, 0.0F}, {deep, size.y}, hue::night, 0.80F, 0.0F);
     canvas.fade_down({0.0F, size.y - 160.0F}, size, hue::night, 0.0F, 0.8F);
     draw_name(canvas, {title_left - 6.0F, 120.0F}, state.time_s);
-    canvas.write(letters.text, 21.0F, {title_left, 236.0F}, hue::moon,
-                 "What you see is what they see. Stay in the shadow.");
+    canvas.write(letters.text, 21.0F, {title_left, 236.0F}, hue::moon, words::promise);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const MenuItem& item = screens.items()[i];
         draw_item(canvas, boxes[i], label_of(item, state), i == screens.selected(), false);
@@ -150,10 +101,10 @@ void draw_title(const Canvas& canvas, const Screens& screens, const PageState& s
                  1.0F);
 }
 
-void draw_heading(const Canvas& canvas, float top, const char* words, const glm::vec4& color,
+void draw_heading(const Canvas& canvas, float top, Screen screen, const glm::vec4& color,
                   float alpha) {
-    canvas.write_spaced(canvas.letters().title, 62.0F, {canvas.size().x * 0.5F, top}, color, words,
-                        6.0F, 0.5F, alpha);
+    canvas.write_spaced(canvas.letters().title, 62.0F, {canvas.size().x * 0.5F, top}, color,
+                        heading_of(screen), 6.0F, 0.5F, alpha);
 }
 
 void draw_pause(const Canvas& canvas, const Screens& screens, const PageState& state,
@@ -162,7 +113,7 @@ void draw_pause(const Canvas& canvas, const Screens& screens, const PageState& s
     const glm::vec2 size = canvas.size();
     const float middle = size.x * 0.5F;
     canvas.fill({0.0F, 0.0F}, size, hue::night, 0.66F);
-    draw_heading(canvas, 104.0F, "PAUSED", hue::moon, 1.0F);
+    draw_heading(canvas, 104.0F, Screen::Paused, hue::moon, 1.0F);
     if (state.session != nullptr) {
         const World& world = state.session->world();
         canvas.write(letters.text, 19.0F, {middle, 186.0F}, hue::dim,
@@ -176,9 +127,9 @@ void draw_pause(const Canvas& canvas, const Screens& screens, const PageState& s
     float top = 254.0F;
     canvas.fill({left - 28.0F, top - 18.0F}, {middle + pause_half, top + 9.0F * 31.0F + 12.0F},
                 hue::night, 0.6F, 12.0F);
-    for (const auto& [key, what] : keys) {
-        canvas.write(letters.text, 17.0F, {left, top}, hue::lamp, key);
-        canvas.write(letters.text, 17.0F, {left + 262.0F, top}, hue::moon, what);
+    for (const KeyLine& line : key_lines) {
+        canvas.write(letters.text, 17.0F, {left, top}, hue::lamp, line.keys);
+        canvas.write(letters.text, 17.0F, {left + 262.0F, top}, hue::moon, line.deed);
         top += 31.0F;
     }
 }
@@ -196,22 +147,10 @@ void draw_end(const Canvas& canvas, const Screens& screens, const PageState& sta
     canvas.fade_down({0.0F, band - 280.0F}, {size.x, band - 130.0F}, tint, 0.0F, 0.66F * alpha);
     canvas.fill({0.0F, band - 130.0F}, {size.x, band + 200.0F}, tint, 0.66F * alpha);
     canvas.fade_down({0.0F, band + 200.0F}, {size.x, band + 330.0F}, tint, 0.66F * alpha, 0.0F);
-    draw_heading(canvas, band - 140.0F, won ? "UNSEEN" : "CAUGHT", won ? hue::exit : hue::alarm,
-                 alpha);
+    draw_heading(canvas, band - 140.0F, screens.now(), won ? hue::exit : hue::alarm, alpha);
     if (state.session != nullptr) {
-        const World& world = state.session->world();
-        const double worst = state.session->worst_alarm();
-        const std::string time = clock_text(world.now());
-        std::string words = fmt::format("The light found you after {}.", time);
-        if (won && worst <= 0.0) {
-            words = fmt::format("{} in {}, and nobody noticed a thing.", world.level().name, time);
-        } else if (won) {
-            words = fmt::format("{} in {}. The alarm came to {:.0f} %.", world.level().name, time,
-                                std::max(1.0, 100.0 * worst));
-        } else if (world.meter().alarm < 1.0) {
-            words = fmt::format("A guard has you by the collar, after {}.", time);
-        }
-        canvas.write(letters.text, 21.0F, {middle, band - 52.0F}, hue::moon, words, 0.5F, alpha);
+        canvas.write(letters.text, 21.0F, {middle, band - 52.0F}, hue::moon, end_of(*state.session),
+                     0.5F, alpha);
     }
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         draw_item(canvas, boxes[i], label_of(screens.items()[i], state), i == screens.selected(),
@@ -225,14 +164,14 @@ void draw_settings(const Canvas& canvas, const Screens& screens, const PageState
     const glm::vec2 size = canvas.size();
     const float middle = size.x * 0.5F;
     canvas.fill({0.0F, 0.0F}, size, hue::night, 0.72F);
-    draw_heading(canvas, 72.0F, "SETTINGS", hue::moon, 1.0F);
+    draw_heading(canvas, 72.0F, Screen::Settings, hue::moon, 1.0F);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const MenuItem& item = screens.items()[i];
         const bool chosen = i == screens.selected();
         draw_item(canvas, boxes[i], label_of(item, state), chosen, false);
         if (item.kind != Kind::Setting) continue;
         const float top = (boxes[i].min.y + boxes[i].max.y) * 0.5F - 14.0F;
-        const std::string value = value_of(item.setting, state);
+        const std::string value = value_of(item.setting, state.settings, state.backend);
         const std::string shown = chosen ? "‹  " + value + "  ›" : value;
         canvas.write(letters.text, 23.0F, {boxes[i].max.x - 22.0F, top},
                      chosen ? hue::lamp : hue::dim, shown, 1.0F);

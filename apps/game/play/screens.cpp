@@ -2,13 +2,14 @@
 #include "play/screens.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <gnomon/core/expects.hpp>
 
 namespace gnomon::game {
 
-Screens::Screens(std::size_t levels, bool watches) : levels_(levels), watches_(watches) {
-    GNOMON_EXPECTS(levels > 0);
+Screens::Screens(ScreensDesc desc) : desc_(std::move(desc)), watches_(desc_.watches) {
+    GNOMON_EXPECTS(desc_.levels > 0);
     show(Screen::Title);
 }
 
@@ -19,9 +20,12 @@ void Screens::show(Screen screen) {
     items_.clear();
     switch (screen) {
         case Screen::Title:
-            for (std::size_t i = 0; i < levels_; ++i) items_.push_back(MenuItem{Kind::Level, i});
+            for (std::size_t i = 0; i < desc_.levels; ++i) {
+                items_.push_back(MenuItem{Kind::Level, i});
+            }
+            if (desc_.can_watch) items_.push_back(MenuItem{Kind::Watch});
             items_.push_back(MenuItem{Kind::Settings});
-            items_.push_back(MenuItem{Kind::Quit});
+            if (desc_.can_quit) items_.push_back(MenuItem{Kind::Quit});
             selected_ = level_;
             break;
         case Screen::Playing: break;
@@ -29,10 +33,10 @@ void Screens::show(Screen screen) {
             items_.push_back(MenuItem{Kind::Resume});
             if (!watches_) items_.push_back(MenuItem{Kind::Restart});
             items_.push_back(MenuItem{Kind::Settings});
-            items_.push_back(MenuItem{watches_ ? Kind::Quit : Kind::ToTitle});
+            items_.push_back(MenuItem{desc_.watches ? Kind::Quit : Kind::ToTitle});
             break;
         case Screen::Won:
-            if (level_ + 1 < levels_) items_.push_back(MenuItem{Kind::NextLevel});
+            if (level_ + 1 < desc_.levels) items_.push_back(MenuItem{Kind::NextLevel});
             items_.push_back(MenuItem{Kind::Restart});
             items_.push_back(MenuItem{Kind::ToTitle});
             break;
@@ -41,7 +45,7 @@ void Screens::show(Screen screen) {
             items_.push_back(MenuItem{Kind::ToTitle});
             break;
         case Screen::Settings:
-            for (const Setting setting : all_settings) {
+            for (const Setting setting : desc_.settings) {
                 items_.push_back({.kind = Kind::Setting, .setting = setting});
             }
             items_.push_back(MenuItem{Kind::Back});
@@ -50,7 +54,7 @@ void Screens::show(Screen screen) {
 }
 
 void Screens::begin(std::size_t level) {
-    GNOMON_EXPECTS(level < levels_);
+    GNOMON_EXPECTS(level < desc_.levels);
     level_ = level;
     show(Screen::Playing);
 }
@@ -62,6 +66,7 @@ void Screens::ended(Outcome outcome) {
 }
 
 Order Screens::leave() {
+    watches_ = desc_.watches;
     show(Screen::Title);
     return {.kind = Order::Kind::Leave};
 }
@@ -81,6 +86,10 @@ Order Screens::accept() {
         case MenuItem::Kind::Level:
             begin(item.level);
             return {.kind = Order::Kind::Begin, .level = item.level};
+        case MenuItem::Kind::Watch:
+            watches_ = true;
+            show(Screen::Playing);
+            return {.kind = Order::Kind::Watch, .level = level_};
         case MenuItem::Kind::NextLevel:
             begin(level_ + 1);
             return {.kind = Order::Kind::Begin, .level = level_};

@@ -21,6 +21,7 @@ enum class Screen : std::uint8_t { Title, Playing, Paused, Won, Caught, Settings
 struct MenuItem {
     enum class Kind : std::uint8_t {
         Level,
+        Watch,  ///< the level's recording
         Settings,
         Quit,
         Resume,
@@ -55,6 +56,7 @@ struct Order {
     enum class Kind : std::uint8_t {
         None,
         Begin,    ///< `level`, from its start
+        Watch,    ///< the recording of `level`
         Restart,  ///< the level that is played
         Leave,    ///< for the title
         Change,   ///< `setting`, by `by` steps
@@ -68,10 +70,19 @@ struct Order {
     bool operator==(const Order&) const = default;
 };
 
+/// What there is to choose.
+struct ScreensDesc {
+    std::size_t levels = 1;
+    bool watches = false;    ///< there is a recording to be watched, and nothing else
+    bool can_watch = false;  ///< the title offers the level's recording
+    bool can_quit = true;    ///< the program has an end of its own
+    std::vector<Setting> settings{all_settings.begin(), all_settings.end()};
+};
+
 class Screens {
 public:
-    /// Begins with the title. `watches`: what is played is a recording, which nobody can change.
-    explicit Screens(std::size_t levels, bool watches = false);
+    /// Begins with the title.
+    explicit Screens(ScreensDesc desc);
 
     [[nodiscard]] Screen now() const { return now_; }
     /// Empty while playing.
@@ -81,21 +92,24 @@ public:
     [[nodiscard]] std::size_t level() const { return level_; }
     /// From which the settings were opened.
     [[nodiscard]] Screen behind() const { return now_ == Screen::Settings ? behind_ : now_; }
+    /// What is played is a recording, which nobody can change.
     [[nodiscard]] bool watches() const { return watches_; }
 
     [[nodiscard]] Order press(const MenuPress& press);
     /// Past the title, for who named a level.
     void begin(std::size_t level);
-    /// The level that is played is over; Outcome::Playing is nothing.
+    /// The level that is played is over; Outcome::Playing is nothing, and so is what a recording
+    /// comes to.
     void ended(Outcome outcome);
+    /// What was played is left, as if somebody had said so.
+    [[nodiscard]] Order leave();
 
 private:
     void show(Screen screen);
     [[nodiscard]] Order accept();
-    [[nodiscard]] Order leave();
     [[nodiscard]] Order close_settings();
 
-    std::size_t levels_;
+    ScreensDesc desc_;
     bool watches_;
     Screen now_ = Screen::Title;
     Screen behind_ = Screen::Title;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Settings: what is remembered from one game to the next, and the file that holds it.
+// Settings: what is remembered from one game to the next, as values and as text; where the text
+// is kept is another's business (settings_file.hpp).
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,19 +49,5 @@ struct Settings {
 /// The inverse of to_text(). What is not named has its default. Fails with ErrorCode::InvalidInput,
 /// one sentence that names `file`, place, value and limit.
 [[nodiscard]] Result<Settings> read_settings(std::string_view text, const std::string& file);
-
-/// $XDG_CONFIG_HOME/gnomon/game.json, or in ~/.config; empty where there is neither.
-[[nodiscard]] std::filesystem::path settings_path();
-
-struct LoadedSettings {
-    Settings settings;
-    std::string complaint;  ///< one sentence where the file cannot be used; then all are defaults
-};
-/// Of no file, or an empty path, the defaults.
-[[nodiscard]] LoadedSettings load_settings(const std::filesystem::path& path);
-
-/// Under another name first, then renamed; folders are made. Fails with ErrorCode::Io; an empty
-/// path is nothing to do.
-[[nodiscard]] Status save_settings(const std::filesystem::path& path, const Settings& settings);
 
 }  // namespace gnomon::game
