@@ -62,9 +62,9 @@ build/web/build.ninja: CMakePresets.json
 	@cmake --preset web
 	@touch $@
 
-web: build/web/build.ninja ## the viewer as a page, by Emscripten: build/web/site, to be served
-	@cmake --build build/web --target gnomon_web
-	@echo "page: build/web/site; make web-serve shows it on http://127.0.0.1:8080/"
+web: build/web/build.ninja ## viewer and game as pages, by Emscripten: build/web/site, to be served
+	@cmake --build build/web --target gnomon_web gnomon_web_game
+	@echo "pages: build/web/site; make web-serve shows it on http://127.0.0.1:8080/"
 
 web-serve: web ## serve the page on this machine's loopback until interrupted
 	@node tests/web/server.mjs build/web/site 8080

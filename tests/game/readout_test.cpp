@@ -50,7 +50,7 @@ TEST(ExitMark, is_an_arrow_at_the_border_towards_an_exit_out_of_the_picture) {
         EXPECT_GE(mark->at.x, 63.0F);
         EXPECT_LE(mark->at.x, size.x - 63.0F);
         EXPECT_GE(mark->at.y, 63.0F);
-        EXPECT_LE(mark->at.y, size.y - 63.0F);
+        EXPECT_LE(mark->at.y, size.y - 95.0F) << "below is the meter";
     }
 }
 

@@ -31,30 +31,30 @@ double alarm_tint(const Meter& meter) {
 }
 
 std::optional<ExitMark> exit_mark(const Level& level, const shadows::View& view,
-                                  const glm::vec2& size, float margin, float margin_below) {
+                                  const glm::vec2& size, const Margins& margins) {
     const glm::dvec4 over(level.exit.x, 1.5, level.exit.y, 1.0);
     const glm::dvec4 clip = view.clip_from_view * view.view_from_world * over;
-    // Behind the eye it has no place, but a way.
-    const bool is_ahead = clip.w > 0.0;
-    glm::vec2 place(0.0F);
-    if (is_ahead) {
+    const glm::vec2 middle = size * 0.5F;
+    // How far it is from the middle to the border, up to the left and down to the right.
+    const glm::vec2 least = glm::max(middle - glm::vec2(margins.side, margins.above), 1.0F);
+    const glm::vec2 most = glm::max(middle - glm::vec2(margins.side, margins.below), 1.0F);
+    glm::vec2 way(0.0F);
+    if (clip.w > 0.0) {
         const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
-        place = glm::vec2(glm::dvec2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y)) * size;
-        if (place.x > margin && place.x < size.x - margin && place.y > margin &&
-            place.y < size.y - margin_below) {
-            return ExitMark{.at = place, .way = std::nullopt};
-        }
+        way = glm::vec2(glm::dvec2(ndc.x, -ndc.y)) * middle;
+        const bool is_inside =
+            way.x > -least.x && way.x < most.x && way.y > -least.y && way.y < most.y;
+        if (is_inside) return ExitMark{.at = middle + way, .way = std::nullopt};
+    } else {
+        // Behind the eye it has no place, but a way, as the ground is seen.
+        const glm::dvec3 in_view(view.view_from_world * over);
+        way = {static_cast<float>(in_view.x), static_cast<float>(-in_view.y)};
     }
-    // As the ground is seen.
-    const glm::dvec3 in_view(view.view_from_world * over);
-    glm::vec2 way(static_cast<float>(in_view.x), static_cast<float>(-in_view.y));
-    if (is_ahead) way = place - size * 0.5F;
     if (glm::length(way) < 1e-4F) return std::nullopt;
     way = glm::normalize(way);
-    const glm::vec2 half = glm::max(size * 0.5F - margin, glm::vec2(1.0F));
-    const float reach = std::min(half.x / std::max(std::abs(way.x), 1e-4F),
-                                 half.y / std::max(std::abs(way.y), 1e-4F));
-    return ExitMark{.at = size * 0.5F + way * reach, .way = way};
+    const glm::vec2 reach = glm::mix(least, most, glm::greaterThan(way, glm::vec2(0.0F))) /
+                            glm::max(glm::abs(way), 1e-4F);
+    return ExitMark{.at = middle + way * std::min(reach.x, reach.y), .way = way};
 }
 
 }  // namespace gnomon::game

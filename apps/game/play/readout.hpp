@@ -34,10 +34,14 @@ struct ExitMark {
     /// border. None: it is at `at`.
     std::optional<glm::vec2> way;
 };
-/// Nearer than `margin` to a side, or `margin_below` to the lower one, counts as out of the
-/// picture. None where the exit is straight behind the eye.
+/// What is nearer to a border counts as out of the picture: other things are shown there.
+struct Margins {
+    float side = 64.0F;
+    float above = 64.0F;
+    float below = 96.0F;
+};
+/// None where the exit is straight behind the eye.
 [[nodiscard]] std::optional<ExitMark> exit_mark(const Level& level, const shadows::View& view,
-                                                const glm::vec2& size, float margin = 64.0F,
-                                                float margin_below = 96.0F);
+                                                const glm::vec2& size, const Margins& margins = {});
 
 }  // namespace gnomon::game

@@ -59,6 +59,13 @@ void Screens::begin(std::size_t level) {
     show(Screen::Playing);
 }
 
+Order Screens::watch() {
+    GNOMON_EXPECTS(desc_.can_watch);
+    watches_ = true;
+    show(Screen::Playing);
+    return {.kind = Order::Kind::Watch, .level = level_};
+}
+
 void Screens::ended(Outcome outcome) {
     if (now_ != Screen::Playing || watches_) return;
     if (outcome == Outcome::Won) show(Screen::Won);
@@ -86,10 +93,7 @@ Order Screens::accept() {
         case MenuItem::Kind::Level:
             begin(item.level);
             return {.kind = Order::Kind::Begin, .level = item.level};
-        case MenuItem::Kind::Watch:
-            watches_ = true;
-            show(Screen::Playing);
-            return {.kind = Order::Kind::Watch, .level = level_};
+        case MenuItem::Kind::Watch: return watch();
         case MenuItem::Kind::NextLevel:
             begin(level_ + 1);
             return {.kind = Order::Kind::Begin, .level = level_};

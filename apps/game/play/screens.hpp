@@ -98,6 +98,8 @@ public:
     [[nodiscard]] Order press(const MenuPress& press);
     /// Past the title, for who named a level.
     void begin(std::size_t level);
+    /// The recording of the level that is chosen, as its line in the title does.
+    [[nodiscard]] Order watch();
     /// The level that is played is over; Outcome::Playing is nothing, and so is what a recording
     /// comes to.
     void ended(Outcome outcome);

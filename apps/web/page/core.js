@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// The C++ half (viewer.hpp says which orders there are) as an object: orders one after another, since the core is in the
-// middle of one while it waits for the device.
+// The C++ half (viewer.hpp and game/game.hpp say which orders there are) as an object: orders one after another, since the
+// core is in the middle of one while it waits for the device.
 import {canWait, createBridge} from './bridge.js';
-import createModule from './gnomon.mjs';
 
 export class Core {
-    /// Throws an Error of one sentence where the browser cannot do it.
-    static async create({canvas, disabledFeatures = []}) {
+    /// `program`: the module that obeys. Throws an Error of one sentence where the browser cannot do it.
+    static async create({canvas, disabledFeatures = [], program = './gnomon.mjs'}) {
         // Neither needs the other until the first order.
-        const making = createModule({print: text => console.log(text), printErr: text => console.warn(text)});
+        const making = import(program).then(({default: createModule}) => createModule(
+            {print: text => console.log(text), printErr: text => console.warn(text)}));
         making.catch(() => {});  // heard below, or nobody's business where there is no device
         const bridge = await createBridge({canvas, disabledFeatures});
         const module = await making.catch(error => {
