@@ -25,13 +25,11 @@ std::string answer;
 extern "C" {
 
 /// An empty string, or the sentence that says what is wrong.
-EMSCRIPTEN_KEEPALIVE const char* gnomon_truth_begin(const std::uint8_t* job, std::size_t job_size,
-                                                    const std::uint8_t* masks,
-                                                    std::size_t masks_size) {
+EMSCRIPTEN_KEEPALIVE const char* gnomon_truth_begin(const std::uint8_t* job, std::size_t job_size) {
     bench.reset();
     answer.clear();
     try {
-        auto made = gnomon::web::TruthBench::create({job, job_size}, {masks, masks + masks_size});
+        auto made = gnomon::web::TruthBench::create({job, job_size});
         if (made) {
             bench.emplace(std::move(*made));
         } else {
@@ -44,14 +42,20 @@ EMSCRIPTEN_KEEPALIVE const char* gnomon_truth_begin(const std::uint8_t* job, std
 }
 
 /// {"judged", "band", "shadowed", "wrong": one a technique, "at": pixels, one list a technique} in
-/// JSON, of these rows.
-EMSCRIPTEN_KEEPALIVE const char* gnomon_truth_judge(std::uint32_t first_row, std::uint32_t rows) {
-    if (!bench) return "{}";
-    const auto judgements = bench->judge(first_row, rows);
-    const gnomon::truth::Judgement& first = judgements.front();
+/// JSON, of these rows and their masks; or {"error"}, one sentence.
+EMSCRIPTEN_KEEPALIVE const char* gnomon_truth_judge(std::uint32_t first_row, std::uint32_t rows,
+                                                    const std::uint8_t* masks,
+                                                    std::size_t masks_size) {
+    if (!bench) return R"({"error": "There is no job to trace."})";
+    const auto judgements = bench->judge(first_row, rows, {masks, masks_size});
+    if (!judgements) {
+        answer = fmt::format(R"({{"error": "{}"}})", judgements.error().message);
+        return answer.c_str();
+    }
+    const gnomon::truth::Judgement& first = judgements->front();
     std::string wrong;
     std::string at;
-    for (const gnomon::truth::Judgement& one : judgements) {
+    for (const gnomon::truth::Judgement& one : *judgements) {
         const char* comma = wrong.empty() ? "" : ",";
         wrong += fmt::format("{}{}", comma, one.wrong());
         at += fmt::format("{}[{}]", comma, fmt::join(one.wrong_pixels, ","));

@@ -89,10 +89,6 @@ tl::unexpected<Error> bad(std::string_view what) {
     return fail(ErrorCode::InvalidInput, fmt::format("A job for the truth {}.", what));
 }
 
-std::size_t mask_bytes(const TruthJob& job) {
-    return std::size_t{job.width} * job.height * job.samples * job.lights.size();
-}
-
 }  // namespace
 
 std::vector<truth::Instance> TruthJob::instances() const {
@@ -191,28 +187,31 @@ glm::dvec2 sample_position(std::uint32_t sample, std::uint32_t samples) {
     return samples == 4 ? places_of_four.at(sample) : glm::dvec2(0.5);
 }
 
-TruthBench::TruthBench(TruthJob job, std::vector<std::uint8_t> masks, truth::Tracer tracer)
-    : job_(std::move(job)), masks_(std::move(masks)), tracer_(std::move(tracer)) {}
+TruthBench::TruthBench(TruthJob job, truth::Tracer tracer)
+    : job_(std::move(job)), tracer_(std::move(tracer)) {}
 
-Result<TruthBench> TruthBench::create(std::span<const std::uint8_t> bytes,
-                                      std::vector<std::uint8_t> masks) {
+Result<TruthBench> TruthBench::create(std::span<const std::uint8_t> bytes) {
     auto job = read_job(bytes);
     if (!job) return forward_error(job);
-    const std::size_t of_one = mask_bytes(*job);
-    if (of_one == 0 || masks.empty() || masks.size() % of_one != 0) {
-        return bad(fmt::format("has {} bytes of masks, of which a technique has {}", masks.size(),
-                               of_one));
-    }
     const glm::dvec3 eye(glm::inverse(job->view.view_from_world)[3]);
     auto tracer = truth::Tracer::build(job->instances(), eye);
     if (!tracer) return forward_error(tracer);
-    return TruthBench(std::move(*job), std::move(masks), std::move(*tracer));
+    return TruthBench(std::move(*job), std::move(*tracer));
 }
 
-std::vector<truth::Judgement> TruthBench::judge(std::uint32_t first_row, std::uint32_t rows) const {
-    const std::size_t of_one = mask_bytes(job_);
-    const std::size_t of_picture = std::size_t{job_.width} * job_.height;
-    std::vector<truth::Judgement> judgements(masks_.size() / of_one);
+Result<std::vector<truth::Judgement>> TruthBench::judge(std::uint32_t first_row, std::uint32_t rows,
+                                                        std::span<const std::uint8_t> masks) const {
+    if (first_row >= job_.height || rows == 0 || rows > job_.height - first_row) {
+        return bad(
+            fmt::format("has {} rows, so not {} from row {} on", job_.height, rows, first_row));
+    }
+    const std::size_t of_rows = std::size_t{job_.width} * rows;
+    const std::size_t of_one = of_rows * job_.samples * job_.lights.size();
+    if (of_one == 0 || masks.empty() || masks.size() % of_one != 0) {
+        return bad(fmt::format("has {} bytes of masks for {} rows, of which a technique has {}",
+                               masks.size(), rows, of_one));
+    }
+    std::vector<truth::Judgement> judgements(masks.size() / of_one);
     for (std::size_t light = 0; light < job_.lights.size(); ++light) {
         for (std::uint32_t sample = 0; sample < job_.samples; ++sample) {
             const truth::Picture truth =
@@ -223,16 +222,11 @@ std::vector<truth::Judgement> TruthBench::judge(std::uint32_t first_row, std::ui
                                .rows = rows,
                                .band_px = job_.band_px,
                                .sample_position = sample_position(sample, job_.samples)});
-            const std::size_t begin = std::size_t{first_row} * job_.width;
             for (std::size_t technique = 0; technique < judgements.size(); ++technique) {
                 const std::size_t mask =
-                    technique * of_one + (light * job_.samples + sample) * of_picture;
-                truth::Judgement judged = truth::judge(
-                    truth, std::span(masks_).subspan(truth.height > 0 ? mask + begin : 0,
-                                                     truth.verdicts.size()));
-                for (std::uint32_t& pixel : judged.wrong_pixels) {
-                    pixel += static_cast<std::uint32_t>(begin);
-                }
+                    technique * of_one + (light * job_.samples + sample) * of_rows;
+                truth::Judgement judged = truth::judge(truth, masks.subspan(mask, of_rows));
+                for (std::uint32_t& pixel : judged.wrong_pixels) pixel += first_row * job_.width;
                 judgements[technique] += judged;
             }
         }

@@ -49,21 +49,20 @@ struct TruthJob {
 /// The truth of one job, held against the masks of several techniques, some rows at a time.
 class TruthBench {
 public:
-    /// `masks`: a byte a pixel, by technique, then light, then sample. Fails as read_job() and
-    /// Tracer::build() do, and where the masks are not as many as those of whole techniques.
-    [[nodiscard]] static Result<TruthBench> create(std::span<const std::uint8_t> job,
-                                                   std::vector<std::uint8_t> masks);
+    /// Fails as read_job() and Tracer::build() do.
+    [[nodiscard]] static Result<TruthBench> create(std::span<const std::uint8_t> job);
 
-    /// By technique, all lights and samples together. `wrong_pixels` are those of the whole picture
-    /// (y * width + x), each as often as it is wrong.
-    [[nodiscard]] std::vector<truth::Judgement> judge(std::uint32_t first_row,
-                                                      std::uint32_t rows) const;
+    /// By technique, all lights and samples together. `masks` are of these rows: a byte a pixel, by
+    /// technique, then light, then sample. `wrong_pixels` are those of the whole picture (y * width
+    /// + x), each as often as it is wrong. Fails with InvalidInput for rows that the picture does
+    /// not have, and where the masks are not as many as those of whole techniques.
+    [[nodiscard]] Result<std::vector<truth::Judgement>> judge(
+        std::uint32_t first_row, std::uint32_t rows, std::span<const std::uint8_t> masks) const;
     [[nodiscard]] const TruthJob& job() const { return job_; }
 
 private:
-    TruthBench(TruthJob job, std::vector<std::uint8_t> masks, truth::Tracer tracer);
+    TruthBench(TruthJob job, truth::Tracer tracer);
     TruthJob job_;
-    std::vector<std::uint8_t> masks_;
     truth::Tracer tracer_;
 };
 

@@ -22,6 +22,8 @@ using Json = Viewer::Json;
 constexpr double radians_per_pixel = 0.008;
 constexpr std::uint32_t largest_size_px = 8192;
 constexpr int most_frames = 1000;
+// Twice that is in the page's hands for a moment; a 32-bit program has no more than 4 GB.
+constexpr std::size_t most_mask_mb = 512;
 
 glm::dvec2 point_of(const Json& order) { return {order.value("x", 0.0), order.value("y", 0.0)}; }
 
@@ -66,6 +68,9 @@ Json one_of(const std::string& name) { return Json{{"name", name}}; }
 
 Json Viewer::obey(const Json& order) {
     const std::string what = order.value("do", "");
+    // They may be larger than all else.
+    std::vector<std::uint8_t>().swap(job_);
+    std::vector<std::uint8_t>().swap(masks_);
     Result<Json> answer = done(what, order);
     Json json = answer ? std::move(*answer) : Json{{"error", answer.error().message}};
     if (!complaint_.empty() && !json.contains("error"))
@@ -100,6 +105,7 @@ Result<Json> Viewer::done(const std::string& what, const Json& order) {
     }
     if (what == "press") return press(order);
     if (what == "drag") return drag(order);
+    if (what == "push") return push(order);
     if (what == "turn") return turn(order);
     if (what == "options") return options(order);
     if (what == "draw") return draw(order);
@@ -122,14 +128,14 @@ Result<Json> Viewer::done(const std::string& what, const Json& order) {
                       glm::radians(order.value("pitch_deg", 0.0)));
         return Json::object();
     }
+    if (what == "pan") {
+        camera_.pan(point_of(order), canvas());
+        return Json::object();
+    }
     if (what == "light") {
-        const std::size_t place = order.value("place", std::size_t{0});
-        if (place >= stage_->lights().size()) {
-            return fail(ErrorCode::InvalidInput,
-                        fmt::format("There is no light {}: the scene has {}.", place,
-                                    stage_->lights().size()));
-        }
-        stage_->lights()[place].on = order.value("on", true);
+        const auto place = light_of(order);
+        if (!place) return forward_error(place);
+        stage_->lights()[*place].on = order.value("on", true);
         return Json::object();
     }
     return fail(ErrorCode::InvalidInput, fmt::format("There is no order \"{}\".", what));
@@ -188,18 +194,40 @@ Result<Json> Viewer::load(const Json& order) {
                 {"messages", shot.scene.messages}};
 }
 
+Result<std::size_t> Viewer::light_of(const Json& order) const {
+    const std::size_t place = order.value("place", std::size_t{0});
+    if (place < stage_->lights().size()) return place;
+    return fail(ErrorCode::InvalidInput, fmt::format("There is no light {}: the scene has {}.",
+                                                     place, stage_->lights().size()));
+}
+
+Viewer::Drag Viewer::drag_of(std::size_t light, glm::dvec2 at_px) const {
+    const panel::LightLine& held = stage_->lights()[light];
+    return {.light = light,
+            .at_px = at_px,
+            .start_local = stage_->shot().scene.registry.get<scene::LocalTransform>(held.entity),
+            .grabbed = stage_->handle_of(held)};
+}
+
 Result<Json> Viewer::press(const Json& order) {
-    Drag drag{.pan = order.value("pan", false), .light = std::nullopt, .at_px = point_of(order)};
-    const double reach = order.value("reach", 16.0);
-    const auto light = stage_->light_under(view_, size_px_, drag.at_px, reach);
-    if (!drag.pan && light) {
-        const panel::LightLine& held = stage_->lights()[*light];
-        drag.light = light;
-        drag.grabbed = stage_->handle_of(held);
-        drag.start_local = stage_->shot().scene.registry.get<scene::LocalTransform>(held.entity);
-    }
-    drag_ = drag;
-    return Json{{"caught", drag.light ? "light" : "camera"}};
+    const bool pan = order.value("pan", false);
+    const glm::dvec2 at_px = point_of(order);
+    const auto light = stage_->light_under(view_, size_px_, at_px, order.value("reach", 16.0));
+    drag_ = !pan && light ? drag_of(*light, at_px) : Drag{.pan = pan, .at_px = at_px};
+    return Json{{"caught", drag_->light ? "light" : "camera"}};
+}
+
+Result<Json> Viewer::push(const Json& order) {
+    const auto place = light_of(order);
+    if (!place) return forward_error(place);
+    const auto from = panel::pixel_of(view_, stage_->handle_of(stage_->lights()[*place]), size_px_);
+    if (!from) return Json::object();
+    drag_ = drag_of(*place, *from);
+    const glm::dvec2 to = *from + point_of(order);
+    const auto moved =
+        drag({{"x", to.x}, {"y", to.y}, {"along_ground", order.value("along_ground", false)}});
+    drag_.reset();
+    return moved;
 }
 
 Result<Json> Viewer::drag(const Json& order) {
@@ -320,8 +348,19 @@ Result<Json> Viewer::masks(const Json& order) {
     job.samples = stage_->options().samples;
     job.band_px = order.value("band_px", job.band_px);
     job.view = view_;
-    masks_.clear();
-    for (const Json& technique : order.value("techniques", Json::array())) {
+    const Json techniques = order.value("techniques", Json::array());
+    const auto casting = std::ranges::count_if(
+        stage_->lights(), [](const panel::LightLine& light) { return light.on && light.casts; });
+    const std::size_t bytes = std::size_t{job.width} * job.height * job.samples *
+                              static_cast<std::size_t>(casting) * techniques.size();
+    if (bytes > most_mask_mb * 1'000'000) {
+        return fail(ErrorCode::InvalidInput,
+                    fmt::format("The masks of this view take {} MB, and the limit is {}: check a "
+                                "smaller window, or one sample.",
+                                bytes / 1'000'000, most_mask_mb));
+    }
+    masks_.reserve(bytes);
+    for (const Json& technique : techniques) {
         meanwhile.draw_by(technique_named(technique.get<std::string>()));
         const auto drawn = stage_->draw_masks(view_, size_px_);
         if (!drawn) return forward_error(drawn);

@@ -36,6 +36,8 @@ public:
     ///   zoom     {notches}
     ///   frame    {}                               all of the scene, from the standard view
     ///   look     {yaw_deg, pitch_deg}             the camera, round what it looks at
+    ///   pan      {x, y}                           pixels that the picture goes along
+    ///   push     {place, x, y, along_ground}      the light there, as if it were dragged so far
     ///   turn     {yaw_deg}                        the first light, about the scene's middle
     ///   light    {place, on}
     ///   options  {overlays, samples, technique, caps, ground}   those that are named
@@ -43,10 +45,9 @@ public:
     ///   measure  {technique, frames}              draws without debug views, waits, and
     ///                                             answers frame_ms of each; "none": no shadows
     ///   masks    {techniques, band_px}            as drawn by each: answers width, height,
-    ///   samples,
-    ///                                             lights (names) and bytes {job, masks}: places
-    ///                                             and sizes, good until the next order
-    ///                                             (truth_job.hpp)
+    ///                                             samples, lights (how many) and bytes {job,
+    ///                                             masks}: places and sizes, good until the next
+    ///                                             order (truth_job.hpp)
     /// The answer has a member "error", one sentence, where it was not done.
     [[nodiscard]] Json obey(const Json& order);
 
@@ -64,11 +65,14 @@ private:
     [[nodiscard]] Result<Json> load(const Json& order);
     [[nodiscard]] Result<Json> press(const Json& order);
     [[nodiscard]] Result<Json> drag(const Json& order);
+    [[nodiscard]] Result<Json> push(const Json& order);
     [[nodiscard]] Result<Json> turn(const Json& order);
     [[nodiscard]] Result<Json> options(const Json& order);
     [[nodiscard]] Result<Json> draw(const Json& order);
     [[nodiscard]] Result<Json> measure(const Json& order);
     [[nodiscard]] Result<Json> masks(const Json& order);
+    [[nodiscard]] Result<std::size_t> light_of(const Json& order) const;
+    [[nodiscard]] Drag drag_of(std::size_t light, glm::dvec2 at_px) const;
     [[nodiscard]] Json figures() const;
     void stop();
     [[nodiscard]] Status attach();

@@ -181,7 +181,7 @@ claim('a view is checked against the truth: milliseconds and wrong pixels of eac
     assert.ok(found.judged > 0.5 * pixels && found.judged + found.band <= pixels, JSON.stringify(found));
     assert.ok(found.band > 0);
     for (const id of ['auto', 'zpass', 'zfail']) {
-        assert.ok(of[id].ms > 0);
+        assert.ok(of[id].ms > 0 && of[id].least <= of[id].ms && of[id].ms <= of[id].most);
         // Where a volume's side is seen edge-on a rasteriser cannot place it (docs/hard-cases.md).
         assert.ok(of[id].wrong <= 3, `${id}: ${of[id].wrong} wrong`);
     }
@@ -214,12 +214,13 @@ claim('a view is checked as it stands: figures in their poses, lights where they
     for (const row of ofFour.rows.slice(0, 3)) assert.ok(row.wrong < 0.3 * ofFour.band, `${row.name}: ${row.wrong} wrong`);
 }, {width: 760, height: 240});
 
-// The first mask, as it is sent to the workers, with a square turned over in a corner that is neither sky nor edge.
+// The first mask, as its rows are sent to the workers, with a square turned over in a corner that is neither sky nor edge.
 const spoilMasks = `
     const post = Worker.prototype.postMessage;
     Worker.prototype.postMessage = function(message, ...rest) {
-        if (message.masks) {
-            const mask = new Uint8Array(message.masks);
+        const {first, rows, masks} = message;
+        if (masks) {
+            const mask = new Uint8Array(masks);
             const {width, height} = gnomon;
             for (let y = height - 9; y < height - 4; ++y) {
                 for (let x = 4; x < 9; ++x) mask[y * width + x] = mask[y * width + x] ? 0 : 1;
@@ -554,3 +555,15 @@ claim('a device that is lost over and over is given up in a sentence', async vis
 });
 
 check();
+    assert.match(await refusal('push', {place: 99}), /^There is no light 99: the scene has \d+\.$/);
+    // More than a browser has room for, and nothing is drawn for it.
+    const tooLarge = await visitor.evaluate(`(() => {
+        const {core, width, height} = gnomon;
+        core.obey('options', {samples: 4});
+        core.obey('size', {width: 8192, height: 8192});
+        const answer = core.obey('masks', {techniques: ['auto', 'zpass', 'zfail']}).then(() => 'done', error => error.message);
+        core.obey('size', {width, height});
+        core.obey('options', {samples: 1});
+        return answer;
+    })()`);
+    assert.equal(tooLarge, 'The masks of this view take 1610 MB, and the limit is 512: check a smaller window, or one sample.');

@@ -13,8 +13,9 @@ const mostFramesOfRound = 10;
 const measuringMs = 10_000;  // for all techniques together, where frames are not slower than that
 const pixelsOfPart = 20_000;
 const mostWorkers = 4;
-const mostBytes = 512 * 2 ** 20;  // of all workers, each of which has a copy
+const mostBytes = 512 * 2 ** 20;  // of all workers, each of which has the triangles
 const mostRings = 200;
+const mostMarked = 100_000;  // of a technique; all are counted
 
 // "none" is drawn without shadows: what all of them are compared with.
 const techniques = [
@@ -25,22 +26,28 @@ const techniques = [
 ];
 const judgedOnes = techniques.filter(({id}) => id !== 'none');
 
-const median = values => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+/// The middle one, or what lies between the two; with the least and the most.
+function spreadOf(values) {
+    const sorted = [...values].sort((a, b) => a - b);
+    const half = sorted.length / 2;
+    return {ms: (sorted[Math.ceil(half) - 1] + sorted[Math.floor(half)]) / 2, least: sorted[0], most: sorted.at(-1)};
+}
 const count = number => number.toLocaleString('en');
-const milliseconds = value => value.toFixed(value < 10 ? 2 : 1);
+const milliseconds = value => value.toFixed(value < 10 ? 2 : value < 100 ? 1 : 0);
 
 class Cancelled extends Error {}
 
 /// Traces in as many workers as there are processors to spare. `part(answer)` hears of each part, in no order.
 class Tracing {
     constructor({width, height, samples, lights, bytes}) {
+        this.width = width;
         this.height = height;
         this.bytes = bytes;
         this.next = 0;
         this.rowsOfPart = Math.max(1, Math.round(pixelsOfPart / (width * samples * lights)));
         const parts = Math.ceil(height / this.rowsOfPart);
         const spare = Math.max(1, (navigator.hardwareConcurrency || 2) - 1);
-        const copies = Math.max(1, Math.floor(mostBytes / (bytes.job.byteLength + bytes.masks.byteLength)));
+        const copies = Math.max(1, Math.floor(mostBytes / bytes.job.byteLength));
         this.count = Math.min(spare, mostWorkers, parts, copies);
         this.workers = [];
     }
@@ -62,14 +69,28 @@ class Tracing {
                         if (left <= 0) resolve();
                     }
                     if (this.next < this.height) {
-                        const rows = Math.min(this.rowsOfPart, this.height - this.next);
-                        worker.postMessage({first: this.next, rows});
+                        const first = this.next;
+                        const rows = Math.min(this.rowsOfPart, this.height - first);
                         this.next += rows;
+                        const masks = this.masksOf(first, rows);
+                        worker.postMessage({first, rows, masks}, [masks]);
                     }
                 });
-                worker.postMessage(this.bytes);
+                worker.postMessage({job: this.bytes.job});
             }
         }).finally(() => this.workers.forEach(worker => worker.terminate()));
+    }
+
+    /// These rows of all masks, one after another.
+    masksOf(first, rows) {
+        const masks = new Uint8Array(this.bytes.masks);
+        const [ofMask, ofRows] = [this.width * this.height, this.width * rows];
+        const part = new Uint8Array(masks.length / ofMask * ofRows);
+        for (let mask = 0; mask * ofMask < masks.length; ++mask) {
+            const begin = mask * ofMask + first * this.width;
+            part.set(masks.subarray(begin, begin + ofRows), mask * ofRows);
+        }
+        return part.buffer;
     }
 
     cancel() { this.reject?.(new Cancelled()); }
@@ -82,9 +103,11 @@ export class Check {
         this.freeze = freeze;
         this.generation = 0;  // of the view
         this.running = false;
+        this.loading = false;
+        this.stale = false;   // what was found is of an earlier view
         byId('check').addEventListener('click', () => this.running ? this.cancel() : this.run());
+        this.showButton();
         if (!core.waits) {
-            byId('check').disabled = true;
             this.say('To check a view, masks are read back, which needs JavaScript Promise Integration; this browser does not ' +
                 'have it.');
         }
@@ -94,9 +117,19 @@ export class Check {
     viewChanged() {
         ++this.generation;
         this.clearMarks();
-        byId('check-result').classList.toggle('stale', Boolean(this.result));
-        if (this.running) this.cancel('The view has changed, so the check has ended.');
-        else if (this.result) this.say('Of an earlier view.');
+        if (this.running) {
+            this.cancel('The view has changed, so the check has ended.');
+        } else if (this.result && !this.stale) {
+            this.stale = true;
+            byId('check-result').classList.add('stale');
+            this.say('Of an earlier view.');
+        }
+    }
+
+    /// While a scene is loading there is no view to begin with.
+    wait(loading) {
+        this.loading = loading;
+        this.showButton();
     }
 
     cancel(reason = 'The check was ended.') {
@@ -109,10 +142,8 @@ export class Check {
         this.freeze();
         const {generation} = this;
         this.running = true;
-        this.result = null;
-        this.clearMarks();
-        byId('check').textContent = 'Stop';
-        byId('check-result').classList.remove('stale');
+        this.forget();
+        this.showButton();
         document.body.dataset.check = 'running';
         try {
             await this.find(() => { if (this.generation !== generation) throw new Cancelled(); });
@@ -120,17 +151,22 @@ export class Check {
         } catch (error) {
             document.body.dataset.check = 'ended';
             this.say(error instanceof Cancelled ? this.reason : error.message);
-            if (this.result && !this.result.seconds) {
-                this.result = null;
-                byId('check-result').hidden = true;
-            }
-            this.clearMarks();
+            this.forget();
         } finally {
             this.running = false;
             this.tracing = null;
-            byId('check').textContent = 'Check this view';
+            this.showButton();
             byId('check-progress').hidden = true;
         }
+    }
+
+    /// Nothing is known of any view.
+    forget() {
+        this.result = null;
+        this.stale = false;
+        byId('check-result').classList.remove('stale');
+        byId('check-result').hidden = true;
+        this.clearMarks();
     }
 
     async find(stillWanted) {
@@ -152,7 +188,7 @@ export class Check {
         stillWanted();
         const result = {
             ...drawn, frames: rounds * framesOfRound, traced: 0, judged: 0, band: 0, begin: performance.now(),
-            rows: techniques.map(technique => ({...technique, ms: median(times[technique.id]), wrong: 0, at: []})),
+            rows: techniques.map(technique => ({...technique, ...spreadOf(times[technique.id]), wrong: 0, at: []})),
         };
         delete result.bytes;
         this.result = result;
@@ -165,7 +201,7 @@ export class Check {
             judgedOnes.forEach(({id}, i) => {
                 const row = result.rows.find(r => r.id === id);
                 row.wrong += part.wrong[i];
-                row.at.push(...part.at[i]);
+                row.at.push(...part.at[i].slice(0, mostMarked - row.at.length));
             });
             result.rows.find(r => r.id === 'none').wrong += part.shadowed;
             this.show();
@@ -177,8 +213,15 @@ export class Check {
     // What is seen of it
 
     say(text, live = 'polite') {
-        byId('check-note').setAttribute('aria-live', live);
-        byId('check-note').textContent = text;
+        const note = byId('check-note');
+        if (note.textContent === text) return;
+        note.setAttribute('aria-live', live);
+        note.textContent = text;
+    }
+
+    showButton() {
+        byId('check').textContent = this.running ? 'Stop' : 'Check this view';
+        byId('check').disabled = !this.core.waits || (this.loading && !this.running);
     }
 
     progress(share, text) {
@@ -205,21 +248,25 @@ export class Check {
             const name = document.createElement('th');
             name.scope = 'row';
             name.append(picture(16, 16, marker(row, 8, 8)), row.name);
-            const cells = [milliseconds(row.ms), count(row.wrong)].map(text => {
+            const range = [row.least, row.most].map(value => value.toFixed(value < 10 ? 2 : 0)).join('–');
+            const cells = [milliseconds(row.ms), range, count(row.wrong)].map(text => {
                 const cell = document.createElement('td');
                 cell.textContent = text;
                 return cell;
             });
+            cells[1].className = 'range';
             line.append(name, ...cells);
             return line;
         }));
         byId('check-plot').replaceChildren(plot(result.rows));
+        byId('check-how').textContent = `ms: the median of ${result.frames} frames of the still view, one at a time, each with the ` +
+            'wait for the device; beside it the fastest and the slowest.';
         if (!result.seconds) return;
         const [auto] = result.rows;
         this.say(
             `auto: ${milliseconds(auto.ms)} ms, ${count(auto.wrong)} wrong of ${count(result.judged)} judged ` +
             `${result.samples > 1 ? 'samples' : 'pixels'} (${count(result.band)} in the band, 1/${1 / band} pixel round ` +
-            `true edges). Of ${size}, traced in ${result.seconds.toFixed(1)} s; a median of ${result.frames} frames.`);
+            `true edges). Of ${size}, traced in ${result.seconds.toFixed(1)} s.`);
         this.mark();
     }
 
