@@ -22,7 +22,7 @@ using Json = Viewer::Json;
 constexpr double radians_per_pixel = 0.008;
 constexpr std::uint32_t largest_size_px = 8192;
 constexpr int most_frames = 1000;
-// Twice that is in the page's hands for a moment; a 32-bit program has no more than 4 GB.
+// The page holds them twice for a moment, here and as a copy.
 constexpr std::size_t most_mask_mb = 512;
 
 glm::dvec2 point_of(const Json& order) { return {order.value("x", 0.0), order.value("y", 0.0)}; }

@@ -47,6 +47,13 @@ claim('the first picture is there, and says what it drew', async visitor => {
     assert.ok(Number(figures.pairs) > 0, JSON.stringify(figures));
     assert.match(await visitor.evaluate("document.getElementById('adapter').textContent"), /swiftshader/i);
     assert.equal(await visitor.note(), '');
+    assert.match(await visitor.evaluate("document.getElementById('hint').innerText"), /^Drag/);
+    // Where a processor draws, with one sample; and there is a light that can be caught.
+    assert.equal(await visitor.evaluate("document.getElementById('samples').checked"), false);
+    assert.ok(await visitor.evaluate(`[...document.querySelectorAll('#marks i')].some(mark => {
+        const {x, y} = mark.getBoundingClientRect();
+        return !mark.hidden && x > 50 && x < 950 && y > 50 && y < 670;
+    })`), 'no light is in view');
     await visitor.keepPicture('wide.png');
 }, {width: 1280, height: 720});
 
@@ -136,26 +143,128 @@ claim('a camera that moves finds no silhouette anew; a light that is dragged doe
     assert.ok(Math.abs(moved - light.x - 40) < 6, `the light is at ${moved} instead of ${light.x + 40}`);
 });
 
-claim('a file that is dropped is shown, and one that is none is refused in a sentence', async visitor => {
-    const drop = (name, bytes) => visitor.evaluate(`(async () => {
-        const bytes = Uint8Array.from(atob(${JSON.stringify(bytes.toString('base64'))}), c => c.charCodeAt(0));
-        const data = new DataTransfer();
-        data.items.add(new File([bytes], ${JSON.stringify(name)}));
-        document.getElementById('stage').dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
-        await new Promise(resolve => setTimeout(resolve, 300));
-        await gnomon.core.last;
+claim('a screen of another resolution, and a page that is zoomed, are drawn as they are', async visitor => {
+    const [width, height] = [760, 200];
+    await visitor.page.call('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 2, mobile: false});
+    await visitor.until("gnomon.width === 2 * document.getElementById('stage').clientWidth");
+    await visitor.nextFrame();
+    const {light, mark, drawn} = await visitor.evaluate(`(() => {
+        const place = gnomon.figures.lights.findIndex(light => light && light.x > 0 && light.y > 0);
+        const box = document.querySelectorAll('#marks i')[place].getBoundingClientRect();
+        return {
+            light: gnomon.figures.lights[place], mark: {x: box.x + box.width / 2, y: box.y + box.height / 2},
+            drawn: document.getElementById('canvas').width,
+        };
     })()`);
+    assert.equal(drawn, await visitor.evaluate('gnomon.width'));
+    assert.ok(Math.hypot(mark.x - light.x / 2, mark.y - light.y / 2) < 1, JSON.stringify({light, mark}));
+}, {width: 760, height: 200});
+
+claim('an adapter that is no processor draws four samples from the beginning', async visitor => {
+    assert.equal(await visitor.evaluate("document.getElementById('samples').checked"), true);
+    const drawn = () => visitor.evaluate("gnomon.core.obey('masks', {techniques: ['auto']}).then(({samples}) => samples)");
+    assert.equal(await drawn(), 4);
+    await visitor.choose('samples', false);
+    await visitor.choose('scene', 'room');
+    assert.equal(await drawn(), 1, 'what was chosen stays');
+    assert.equal(await visitor.note(), '');
+}, {width: 760, height: 160, before: `if (self.GPUAdapter) Object.defineProperty(
+    GPUAdapter.prototype, 'info', {get: () => ({vendor: 'somebody', architecture: 'fast', isFallbackAdapter: false})});`});
+
+claim('keys move the camera and the lights, and leave the browser its own', async visitor => {
+    const camera = () => visitor.evaluate('({eye: gnomon.figures.eye, pivot: gnomon.figures.pivot})');
+    /// Whether the page took it.
+    const press = async (element, key, more = {}) => {
+        const taken = await visitor.evaluate(`!document.querySelector('${element}').dispatchEvent(
+            new KeyboardEvent('keydown', {key: '${key}', bubbles: true, cancelable: true, ...${JSON.stringify(more)}}))`);
+        await visitor.evaluate('gnomon.core.last');
+        await visitor.nextFrame();
+        return taken;
+    };
+    const far = ({eye, pivot}) => Math.hypot(...eye.map((value, i) => value - pivot[i]));
+    const first = await camera();
+    for (const [key, more] of [['+', {ctrlKey: true}], ['-', {metaKey: true}], ['ArrowLeft', {altKey: true}], ['a', {}]]) {
+        assert.equal(await press('#canvas', key, more), false, key);
+    }
+    assert.deepEqual(await camera(), first);
+    assert.ok(await press('#canvas', '='));
+    const closer = await camera();
+    assert.ok(Math.abs(far(closer) / far(first) - 0.9) < 1e-6);
+    assert.ok(await press('#canvas', 'ArrowUp'));
+    const higher = await camera();
+    assert.ok(higher.eye[1] > closer.eye[1], 'the camera goes up');
+    assert.ok(await press('#canvas', 'ArrowUp', {shiftKey: true}));
+    const along = await camera();
+    assert.ok(along.pivot[1] > higher.pivot[1] && Math.abs(far(along) - far(higher)) < 1e-6 * far(along));
+    const place = await visitor.evaluate('gnomon.figures.lights.findIndex(light => light && light.x > 0 && light.y > 0)');
+    const light = () => visitor.evaluate(`gnomon.figures.lights[${place}]`);
+    const before = await light();
+    assert.ok(await press(`#marks i:nth-child(${place + 1})`, 'ArrowRight'));
+    const after = await light();
+    assert.ok(Math.abs(after.x - before.x - 12) < 0.1 && Math.abs(after.y - before.y) < 0.1, JSON.stringify({before, after}));
+    assert.deepEqual(await camera(), along);
+    assert.equal(await visitor.note(), '');
+}, {width: 760, height: 240});
+
+claim('a file that is dropped is shown, and one that is none is refused in a sentence', async visitor => {
+    const facts = () => visitor.evaluate("document.getElementById('facts').textContent");
+    const named = () => visitor.evaluate("document.getElementById('scene').selectedOptions[0].textContent");
+    const drop = async (name, bytes, place = 'stage') => {
+        const prevented = await visitor.evaluate(`(() => {
+            const bytes = Uint8Array.from(atob(${JSON.stringify(bytes.toString('base64'))}), c => c.charCodeAt(0));
+            const data = new DataTransfer();
+            data.items.add(new File([bytes], ${JSON.stringify(name)}));
+            const event = new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true});
+            document.getElementById('${place}').dispatchEvent(event);
+            return event.defaultPrevented;
+        })()`);
+        assert.ok(prevented, 'the browser would leave the page');
+        await visitor.until('!gnomon.wanted');
+    };
     await drop('pyramid.glb', pyramid());
     assert.equal(await visitor.note(), '');
-    assert.match(await visitor.evaluate("document.getElementById('facts').textContent"), /^6 triangles, 1 light/);
+    assert.match(await facts(), /^6 triangles, 1 light/);
+    assert.equal(await named(), 'pyramid.glb');
     await visitor.choose('ground', true);
     await visitor.keepPicture('dropped.png');
     await drop('broken.glb', pyramid().subarray(0, 200));
     assert.match(await visitor.note(), /broken\.glb.*\.$/);
-    assert.match(await visitor.evaluate("document.getElementById('facts').textContent"), /^6 triangles/, 'the old scene stays');
+    assert.match(await facts(), /^6 triangles/, 'the old scene stays');
+    assert.equal(await named(), 'pyramid.glb');
     await drop('picture.jpg', Buffer.from('no model'));
     assert.match(await visitor.note(), /picture\.jpg is no \.glb/);
-});
+    // The way back to the scene that the box named before, and a file that is let go beside the picture.
+    await visitor.choose('scene', 'pillars');
+    assert.match(await facts(), /^18,736 triangles/);
+    assert.equal(await named(), 'pillars');
+    await drop('.hidden.glb', pyramid(), 'panel');
+    assert.equal(await named(), '.hidden.glb');
+    // As of a folder with that name, or of a file that is gone meanwhile.
+    await visitor.evaluate(`Blob.prototype.arrayBuffer = async () => { throw new DOMException('It is gone.'); }`);
+    await drop('gone.glb', pyramid());
+    assert.equal(await visitor.note(), 'gone.glb cannot be read: It is gone.');
+    assert.equal(await named(), '.hidden.glb');
+    assert.deepEqual(await visitor.evaluate("gnomon.core.module.FS.readdir('/given')"), ['.', '..'], 'copies stay');
+}, {width: 760, height: 240});
+
+claim('of scenes that are asked for at once the last one is shown', async visitor => {
+    const disabled = await visitor.evaluate(`(() => {
+        const select = document.getElementById('scene');
+        for (const name of ['walk', 'still-life', 'room']) {
+            select.value = name;
+            select.dispatchEvent(new Event('change'));
+        }
+        return document.getElementById('check').disabled;
+    })()`);
+    assert.ok(disabled, 'there is no view to check meanwhile');
+    await visitor.until('!gnomon.wanted');
+    assert.equal(await visitor.evaluate("document.getElementById('check').disabled"), false);
+    assert.equal(await visitor.evaluate("document.getElementById('scene').value"), 'room');
+    assert.equal(await visitor.evaluate('gnomon.shown.name'), 'room');
+    await visitor.nextFrame();
+    assert.equal(await visitor.evaluate("document.querySelectorAll('#marks i').length"), 1);
+    assert.equal(await visitor.note(), '');
+}, {width: 760, height: 160});
 
 /// What a check of the view found, once it is done.
 async function checkView(visitor, seconds = 120) {
@@ -187,9 +296,27 @@ claim('a view is checked against the truth: milliseconds and wrong pixels of eac
     }
     assert.ok(of.none.wrong > 0.02 * found.judged, 'without shadows it is wrong');
     assert.match(found.note, /^auto: [\d.]+ ms, \d+ wrong of [\d,]+ judged pixels \([\d,]+ in the band/);
+    assert.match(await visitor.evaluate("document.getElementById('check-how').textContent"), /median of \d+ frames/);
+    // It stays true with debug views over it, and whatever technique draws.
+    const note = () => visitor.evaluate("document.getElementById('check-note').textContent");
+    await visitor.choose('show-volumes', true);
+    await visitor.choose('technique', 'zfail');
+    assert.equal(await note(), found.note);
     await visitor.choose('samples', true);
     assert.equal(await visitor.evaluate("document.getElementById('wrong').hidden"), true);
-    assert.match(await visitor.evaluate("document.getElementById('check-note').textContent"), /earlier view/);
+    assert.equal(await note(), 'Of an earlier view.');
+    await visitor.evaluate(`gnomon.said = 0;
+        new MutationObserver(() => { gnomon.said += 1; }).observe(document.getElementById('check-note'), {childList: true})`);
+    await visitor.choose('samples', false);
+    await visitor.choose('ground', true);
+    assert.equal(await visitor.evaluate('gnomon.said'), 0, 'it says the same again and again');
+    // A check that is stopped while it draws leaves nothing that might be taken for this view's.
+    await visitor.evaluate("document.getElementById('check').click()");
+    await visitor.until("document.getElementById('check-note').textContent.startsWith('Drawing')");
+    await visitor.evaluate("document.getElementById('check').click()");
+    await visitor.until("document.body.dataset.check === 'ended'");
+    assert.equal(await note(), 'The check was ended.');
+    assert.equal(await visitor.evaluate("document.getElementById('check-result').checkVisibility()"), false);
 }, {width: 760, height: 300});
 
 claim('a view is checked as it stands: figures in their poses, lights where they were put, all samples', async visitor => {
@@ -222,7 +349,7 @@ const spoilMasks = `
         if (masks) {
             const mask = new Uint8Array(masks);
             const {width, height} = gnomon;
-            for (let y = height - 9; y < height - 4; ++y) {
+            for (let y = Math.max(height - 9 - first, 0); y < Math.min(height - 4 - first, rows); ++y) {
                 for (let x = 4; x < 9; ++x) mask[y * width + x] = mask[y * width + x] ? 0 : 1;
             }
         }
@@ -345,6 +472,7 @@ const phone = {width: 390, height: 844, scale: 2, touch: true};
 
 claim('a phone has all of it', async visitor => {
     await visitor.nextFrame();
+    assert.match(await visitor.evaluate("document.getElementById('hint').innerText"), /^One finger/);
     await visitor.keepPicture('narrow.png');
     const fits = () => visitor.evaluate('document.documentElement.scrollWidth <= window.innerWidth');
     assert.ok(await fits(), 'it is wider than the screen');
@@ -403,6 +531,25 @@ claim('fingers turn the camera, move it and bring it closer', async visitor => {
     assert.ok(between(moved.pivot, closer.pivot) > 0.05 * far(closer), 'two fingers move');
     assert.ok(Math.abs(far(moved) - far(closer)) < 1e-3 * far(closer), 'and keep the distance');
     assert.equal(await visitor.evaluate('window.visualViewport.scale'), 1, 'the page itself is not scaled');
+    // Of two fingers one is lifted, and the other lies on a light: it turns the camera.
+    await visitor.evaluate("document.getElementById('frame').click()");
+    await visitor.nextFrame();
+    const light = await visitor.evaluate('gnomon.figures.lights.find(light => light && light.x > 0 && light.y > 0)');
+    await visitor.evaluate(`gnomon.caught = [];
+        const obey = gnomon.core.obey;
+        gnomon.core.obey = async function(what, details) {
+            const answer = await obey.call(this, what, details);
+            if (what === 'press') gnomon.caught.push(answer.caught);
+            return answer;
+        }`);
+    const [onLight, beside] = [{id: 0, x: light.x, y: light.y}, {id: 1, x: light.x + 80, y: light.y + 40}];
+    const fingers = (type, touchPoints) => visitor.page.call('Input.dispatchTouchEvent', {type, touchPoints});
+    await fingers('touchStart', [onLight]);
+    await fingers('touchStart', [onLight, beside]);
+    await fingers('touchMove', [onLight]);  // the other one is lifted
+    await fingers('touchEnd', []);
+    await visitor.evaluate('gnomon.core.last');
+    assert.deepEqual(await visitor.evaluate('gnomon.caught'), ['light', 'camera', 'camera']);
     assert.equal(await visitor.note(), '');
 }, {...phone, scale: 1});
 
@@ -414,6 +561,18 @@ claim('orders that make no sense are refused in a sentence', async visitor => {
     assert.match(await refusal('light', {place: 99}), /^There is no light 99: the scene has \d+\.$/);
     assert.match(await refusal('masks', {techniques: []}), /nothing to check\.$/);
     assert.match(await refusal('masks', {techniques: [7]}), /^The order cannot be read: .*\.$/);
+    assert.match(await refusal('push', {place: 99}), /^There is no light 99: the scene has \d+\.$/);
+    // More than a browser has room for, and nothing is drawn for it.
+    const tooLarge = await visitor.evaluate(`(() => {
+        const {core, width, height} = gnomon;
+        core.obey('options', {samples: 4});
+        core.obey('size', {width: 8192, height: 8192});
+        const answer = core.obey('masks', {techniques: ['auto', 'zpass', 'zfail']}).then(() => 'done', error => error.message);
+        core.obey('size', {width, height});
+        core.obey('options', {samples: 1});
+        return answer;
+    })()`);
+    assert.equal(tooLarge, 'The masks of this view take 1610 MB, and the limit is 512: check a smaller window, or one sample.');
     const figures = await visitor.nextFrame();
     assert.ok(Number(figures.pairs) > 0);
     assert.equal(await visitor.note(), '');
@@ -555,15 +714,3 @@ claim('a device that is lost over and over is given up in a sentence', async vis
 });
 
 check();
-    assert.match(await refusal('push', {place: 99}), /^There is no light 99: the scene has \d+\.$/);
-    // More than a browser has room for, and nothing is drawn for it.
-    const tooLarge = await visitor.evaluate(`(() => {
-        const {core, width, height} = gnomon;
-        core.obey('options', {samples: 4});
-        core.obey('size', {width: 8192, height: 8192});
-        const answer = core.obey('masks', {techniques: ['auto', 'zpass', 'zfail']}).then(() => 'done', error => error.message);
-        core.obey('size', {width, height});
-        core.obey('options', {samples: 1});
-        return answer;
-    })()`);
-    assert.equal(tooLarge, 'The masks of this view take 1610 MB, and the limit is 512: check a smaller window, or one sample.');

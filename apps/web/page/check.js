@@ -127,7 +127,7 @@ export class Check {
     }
 
     /// While a scene is loading there is no view to begin with.
-    wait(loading) {
+    setLoading(loading) {
         this.loading = loading;
         this.showButton();
     }

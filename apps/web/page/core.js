@@ -71,14 +71,22 @@ export class Core {
         }
     }
 
-    /// A file that the page was given, under a name that "load" takes.
-    keepFile(name, bytes) {
-        const path = `/given/${name.replaceAll('/', '_')}`;
-        if (!this.module.FS.analyzePath('/given').exists) this.module.FS.mkdir('/given');
-        for (const old of this.module.FS.readdir('/given')) {
-            if (!old.startsWith('.')) this.module.FS.unlink(`/given/${old}`);
-        }
-        this.module.FS.writeFile(path, bytes);
-        return path;
+    /// The answer of "load": of a source that the core knows, or of a File of the visitor's, of which no copy stays.
+    load({source, file}) {
+        if (!file) return this.obey('load', {source});
+        return this.afterwards(async () => {
+            const bytes = await file.arrayBuffer().catch(error => {
+                throw new Error(`${file.name} cannot be read: ${error.message.replace(/\.$/, '')}.`);
+            });
+            const {FS} = this.module;
+            const path = `/given/${file.name.replaceAll('/', '_')}`;  // its name is in what the core says of it
+            if (!FS.analyzePath('/given').exists) FS.mkdir('/given');
+            FS.writeFile(path, new Uint8Array(bytes));
+            try {
+                return await this.obeyNow({do: 'load', source: path});
+            } finally {
+                FS.unlink(path);
+            }
+        });
     }
 }

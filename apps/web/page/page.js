@@ -3,6 +3,8 @@
 // The page: what is clicked, dragged and dropped becomes orders for the core, and its answers become text.
 import {Check} from './check.js';
 import {Core} from './core.js';
+import {listenToFiles} from './files.js';
+import {listenToKeys, listenToPointers} from './pointers.js';
 
 const byId = id => document.getElementById(id);
 const canvas = byId('canvas');
@@ -11,7 +13,7 @@ const stage = byId('stage');
 const overlayNames = {
     volumes: 'volumes', silhouettes: 'silhouettes', caps: 'caps', wireframe: 'wireframe', count: 'counts', fill: 'fill',
 };
-const demos = ['still-life', 'pillars', 'room', 'walk'];
+const demos = ['pillars', 'still-life', 'room', 'walk'];  // the first one is seen first; its light can be caught
 const mostPixels = 4096 * 2304;
 
 const state = {
@@ -24,21 +26,33 @@ const state = {
     last: 0,               // when the last frame began
     over: false,           // there is no device now
     losses: [],            // when devices were lost
-    wanted: null,          // the scene that is being loaded
+    wanted: null,          // the scene that was asked for last, until it is there: {name, source or file}
+    shown: null,           // likewise, of what is there
     figures: null,         // of the last frame
+    width: 0,              // of the picture, in pixels
+    height: 0,
+    ratio: 0,              // of the screen's pixels to the page's, when the picture got its size
 };
+
+let begin;
+const started = new Promise(resolve => { begin = resolve; });  // there is a core, and it has a scene to load
 
 function say(text) {
     const note = byId('note');
-    note.textContent = text;
     note.hidden = !text;
+    if (note.textContent !== text) note.textContent = text;
 }
 
-const leavesTheView = new Set(['press', 'release']);
+/// What was found of the view stays true: each technique is checked, and debug views are drawn over it.
+function leavesTheView(what, details) {
+    const unseen = ['overlays', 'technique'];
+    return what === 'press' || what === 'release' ||
+        (what === 'options' && Object.keys(details).every(name => unseen.includes(name)));
+}
 
 /// Orders one thing of the core and draws; what goes wrong is said.
 async function order(what, details) {
-    if (!leavesTheView.has(what)) state.check.viewChanged();
+    if (!leavesTheView(what, details)) state.check.viewChanged();
     try {
         const answer = await state.core.obey(what, details);
         state.dirty = true;
@@ -49,31 +63,63 @@ async function order(what, details) {
     }
 }
 
-async function load(source, name) {
-    say(`Loading ${name} …`);
-    state.wanted = {source, name};
-    const answer = await order('load', {source});
-    if (!answer && state.over) return;  // the next device gets it
+/// What is asked for last is what is there in the end; where that fails, what was there before.
+async function load(wanted) {
+    state.wanted = wanted;
+    state.check.setLoading(true);
+    say(`Loading ${wanted.name} …`);
+    let sentence = '';
+    try {
+        const answer = await state.core.load(wanted);
+        const first = !state.shown;
+        state.check.viewChanged();
+        state.shown = wanted;
+        state.dirty = true;
+        state.animated = answer.animated;
+        byId('play').hidden = !answer.animated;
+        const lights = answer.lights.length;
+        byId('facts').textContent = `${answer.triangles.toLocaleString('en')} triangles, ` +
+            `${lights} ${lights === 1 ? 'light' : 'lights'}`;
+        showMarks(answer.lights);
+        if (first && byId('samples').checked) await order('options', {samples: 4});
+        sentence = answer.messages[0] ?? '';
+    } catch (error) {
+        if (state.over || state.core.bridge.lost) return;  // the next device gets it
+        sentence = error.message;
+    }
+    if (state.wanted !== wanted) return;
     state.wanted = null;
-    if (!answer) return;
-    state.animated = answer.animated;
-    byId('play').hidden = !answer.animated;
-    const lights = answer.lights.length;
-    byId('facts').textContent = `${answer.triangles.toLocaleString('en')} triangles, ` +
-        `${lights} ${lights === 1 ? 'light' : 'lights'}`;
-    say(answer.messages.length > 0 ? answer.messages[0] : '');
+    state.check.setLoading(false);
+    say(sentence);
+    if (state.shown) showName(state.shown);
 }
 
-// Pixels of the picture a pixel of the page.
-function scale() {
+/// The box names what is there: one of the scenes, or the visitor's file, which it has for as long.
+function showName({name, file}) {
+    const select = byId('scene');
+    select.querySelector('.given')?.remove();
+    if (file) {
+        const option = new Option(name, name);
+        option.className = 'given';
+        select.prepend(option);
+    }
+    select.value = name;
+}
+
+/// Pixels of the picture a pixel of the page.
+const scale = () => state.width / Math.max(1, stage.clientWidth);
+
+function wantedScale() {
     const wanted = Math.min(window.devicePixelRatio || 1, 2);
     const pixels = stage.clientWidth * stage.clientHeight * wanted * wanted;
     return pixels > mostPixels ? wanted * Math.sqrt(mostPixels / pixels) : wanted;
 }
 
 async function fit() {
-    const width = Math.max(1, Math.round(stage.clientWidth * scale()));
-    const height = Math.max(1, Math.round(stage.clientHeight * scale()));
+    state.ratio = window.devicePixelRatio;
+    const wanted = wantedScale();
+    const width = Math.max(1, Math.round(stage.clientWidth * wanted));
+    const height = Math.max(1, Math.round(stage.clientHeight * wanted));
     if (width === state.width && height === state.height) return;
     Object.assign(state, {width, height});
     await order('size', {width, height});
@@ -85,7 +131,7 @@ const milliseconds = value => `${value.toFixed(value < 10 ? 2 : 1)} ms`;
 
 function showFigures(figures) {
     const rows = [
-        ['frame', milliseconds(figures.frame_ms)],
+        [state.core.waits ? 'frame' : 'frame, without the device', milliseconds(figures.frame_ms)],
         ['silhouettes found', milliseconds(figures.detect_ms)],
         ['volumes built', milliseconds(figures.build_ms)],
         ['commands recorded', milliseconds(figures.record_ms)],
@@ -106,11 +152,25 @@ function showFigures(figures) {
         data.textContent = value;
         return [term, data];
     }));
-    byId('marks').replaceChildren(...figures.lights.filter(light => light).map(({x, y, sun}) => {
+    figures.lights.forEach((light, place) => {
+        const mark = byId('marks').children[place];
+        // What is beside the picture is not to be seen, so neither to be focused.
+        mark.hidden = !light || light.x < 0 || light.x > state.width || light.y < 0 || light.y > state.height;
+        if (mark.hidden) return;
+        mark.className = light.sun ? 'sun' : 'lamp';
+        mark.style.left = `${100 * light.x / state.width}%`;
+        mark.style.top = `${100 * light.y / state.height}%`;
+    });
+}
+
+/// One for each light, hidden until it is known where it is.
+function showMarks(lights) {
+    byId('marks').replaceChildren(...lights.map(({name}) => {
         const mark = document.createElement('i');
-        mark.className = sun ? 'sun' : 'lamp';
-        mark.style.left = `${x / scale()}px`;
-        mark.style.top = `${y / scale()}px`;
+        mark.hidden = true;
+        mark.tabIndex = 0;
+        mark.setAttribute('role', 'application');
+        mark.setAttribute('aria-label', `Light ${name}. Arrows move it, with Shift along the ground.`);
         return mark;
     }));
 }
@@ -118,6 +178,8 @@ function showFigures(figures) {
 async function frame(now) {
     const seconds = Math.min((now - state.last) / 1000, 0.1);
     state.last = now;
+    // A screen of another resolution may leave the stage as large as it was.
+    if (window.devicePixelRatio !== state.ratio) fit();
     const moving = isMoving();
     if (!state.over && (state.dirty || moving)) {
         state.dirty = false;
@@ -157,103 +219,24 @@ async function savePicture() {
     URL.revokeObjectURL(link.href);
 }
 
-// What is done to the picture
-
-function listenToPointers() {
-    const pointers = new Map();
-    const at = event => {
-        const box = canvas.getBoundingClientRect();
-        return {x: (event.clientX - box.left) * scale(), y: (event.clientY - box.top) * scale()};
-    };
-    const middle = () => {
-        const [a, b] = [...pointers.values()];
-        return b ? {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2} : a;
-    };
-    const spread = () => {
-        const [a, b] = [...pointers.values()];
-        return b ? Math.hypot(a.x - b.x, a.y - b.y) : 0;
-    };
-    let apart = 0;
-    // A light's disc is caught by what is a little larger than a finger, or than an arrow.
-    const begin = (event, pan) => order(
-        'press', {...middle(), pan, reach: (event.pointerType === 'touch' ? 24 : 12) * scale()});
-    canvas.addEventListener('pointerdown', event => {
-        canvas.setPointerCapture(event.pointerId);
-        pointers.set(event.pointerId, at(event));
-        canvas.classList.add('held');
-        apart = spread();
-        begin(event, pointers.size > 1 || event.button !== 0);
-    });
-    canvas.addEventListener('pointermove', event => {
-        if (!pointers.has(event.pointerId)) return;
-        pointers.set(event.pointerId, at(event));
-        if (pointers.size > 1) {
-            const now = spread();
-            if (apart > 0 && now > 0) order('zoom', {notches: Math.log(now / apart) / Math.log(1 / 0.9)});
-            apart = now;
-        }
-        order('drag', {...middle(), along_ground: event.shiftKey});
-    });
-    const end = event => {
-        if (!pointers.delete(event.pointerId)) return;
-        order('release');
-        if (pointers.size > 0) begin(event, false);
-        else canvas.classList.remove('held');
-    };
-    canvas.addEventListener('pointerup', end);
-    canvas.addEventListener('pointercancel', end);
-    canvas.addEventListener('contextmenu', event => event.preventDefault());
-    canvas.addEventListener('wheel', event => {
-        event.preventDefault();
-        const notch = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 100 : 3;
-        order('zoom', {notches: -event.deltaY / notch});
-    }, {passive: false});
-    canvas.addEventListener('keydown', event => {
-        const turns = {ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5]};
-        if (turns[event.key]) {
-            order('look', {yaw_deg: turns[event.key][0], pitch_deg: turns[event.key][1]});
-        } else if (event.key === '+' || event.key === '-') {
-            order('zoom', {notches: event.key === '+' ? 1 : -1});
-        } else {
-            return;
-        }
-        event.preventDefault();
-    });
-}
+// Files
 
 async function open(file) {
-    if (!file) return;
+    await started;
     if (!file.name.toLowerCase().endsWith('.glb')) {
         say(`${file.name} is no .glb: a page can read models of one file only.`);
         return;
     }
-    const path = state.core.keepFile(file.name, new Uint8Array(await file.arrayBuffer()));
-    await load(path, file.name);
+    await load({name: file.name, file});
 }
 
-function listenToFiles() {
-    byId('file').addEventListener('change', async event => {
-        await open(event.target.files[0]);
-        event.target.value = '';  // so that the same one can be chosen again
-    });
-    const over = event => {
-        event.preventDefault();
-        stage.classList.add('over');
-    };
-    stage.addEventListener('dragover', over);
-    stage.addEventListener('dragleave', () => stage.classList.remove('over'));
-    stage.addEventListener('drop', event => {
-        event.preventDefault();
-        stage.classList.remove('over');
-        open(event.dataTransfer.files[0]);
-    });
-}
+const builtin = name => ({name, source: `builtin:${name}`});
 
 function listenToControls(scenes) {
     const select = byId('scene');
     const sorted = [...demos.filter(name => scenes.includes(name)), ...scenes.filter(name => !demos.includes(name))];
     select.replaceChildren(...sorted.map(name => new Option(name.replaceAll('-', ' '), name)));
-    select.addEventListener('change', () => load(`builtin:${select.value}`, select.value));
+    select.addEventListener('change', () => load(builtin(select.value)));
     const toggle = (id, action) => byId(id).addEventListener('click', event => {
         const pressed = event.target.getAttribute('aria-pressed') !== 'true';
         event.target.setAttribute('aria-pressed', pressed);
@@ -290,6 +273,10 @@ const lossesWithin = 30_000;
 
 function showDevice({adapter}) { byId('adapter').textContent = `WebGPU on ${adapter}`; }
 
+/// A processor draws, for which four samples are a lot.
+const isSoftware = ({adapter}) =>
+    Boolean(state.core.bridge.info?.isFallbackAdapter) || /swiftshader|llvmpipe|lavapipe|basic render/i.test(adapter);
+
 /// When the device is lost the page goes on with another one; unless each is lost at once.
 function watchDevice() {
     state.core.bridge.device.lost.then(async () => {
@@ -312,7 +299,7 @@ function watchDevice() {
         state.over = false;
         state.dirty = true;
         say('');
-        if (state.wanted) await load(state.wanted.source, state.wanted.name);
+        if (state.wanted) await load(state.wanted);
         document.body.dataset.devices = Number(document.body.dataset.devices) + 1;
     });
 }
@@ -331,7 +318,9 @@ async function main() {
         // ?without=FEATURE, for tests: as on an adapter that does not have it.
         const disabledFeatures = new URLSearchParams(location.search).getAll('without');
         state.core = await Core.create({canvas, disabledFeatures});
-        showDevice(await state.core.obey('start'));
+        const device = await state.core.obey('start');
+        showDevice(device);
+        byId('samples').checked = !isSoftware(device);
     } catch (error) {
         fail(error.message);
         return;
@@ -341,12 +330,15 @@ async function main() {
     watchDevice();
     const {scenes} = await state.core.obey('scenes');
     listenToControls(scenes);
-    listenToPointers();
-    listenToFiles();
+    listenToPointers({canvas, scale, order});
+    listenToKeys({canvas, marks: byId('marks'), scale, order});
     await fit();
-    await load(`builtin:${byId('scene').value}`, byId('scene').value);
+    const loading = load(builtin(byId('scene').value));
+    begin();
+    await loading;
     requestAnimationFrame(frame);
 }
 
 window.gnomon = state;
+listenToFiles({input: byId('file'), stage, open});
 main();
