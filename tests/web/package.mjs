@@ -6,8 +6,9 @@
 // three.js, for its example, is what npm brings into the site's folder; where it cannot, that example is skipped with the reason.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
-import {existsSync} from 'node:fs';
+import {existsSync, readFileSync} from 'node:fs';
 import path from 'node:path';
+import {fileURLToPath} from 'node:url';
 
 import {check, claim, option} from './visitor.mjs';
 
@@ -364,6 +365,24 @@ claim('its WebAssembly may come as bytes, and all of it may be in a worker', asy
     })(window.probe)`);
     assert.equal(fromBytes, true);
     assert.equal(inWorker, 'r32uint');
+}, probe);
+
+claim('what its guides have a shader ask is WGSL', async visitor => {
+    const root = path.join(path.dirname(fileURLToPath(import.meta.url)), '../..');
+    for (const guide of ['docs/web.md', 'apps/npm/package/README.md']) {
+        const text = readFileSync(path.join(root, guide), 'utf8');
+        const [, load] = /let shadowed = (textureLoad\(.*?\)\.r);/.exec(text);
+        const [, question] = /^if \((.*)\) \{ … \}/m.exec(text);
+        const [, name] = /textureLoad\((\w+)/.exec(load);
+        const code = `@group(1) @binding(0) var ${name}: texture_2d<u32>;
+            fn arrives(position: vec4f, lamp_bit: u32) -> bool { let shadowed = ${load}; return ${question}; }`;
+        const said = await inPage(visitor, `async (probe, code) => {
+            const device = await probe.newDevice();
+            const {messages} = await device.createShaderModule({code}).getCompilationInfo();
+            return messages.map(({message}) => message);
+        }`, code);
+        assert.deepEqual(said, [], guide);
+    }
 }, probe);
 
 claim('two of them on one device do not disturb each other', async visitor => {
