@@ -108,8 +108,8 @@ export declare class Mesh {
     readonly report: MeshReport;
     readonly removed: boolean;
     /**
-     * The same triangles with other positions, as many as the mesh has vertices: edges are not found anew, and it takes a
-     * twentieth of the time. For skins and morphs; give the result to `caster.setMesh()` and remove the last one.
+     * The same triangles with other positions, as many as the mesh has vertices: edges and components are not found anew, as
+     * they are for another mesh. For skins and morphs; give the result to `caster.setMesh()` and remove the last one.
      */
     deformed(positions: Float32Array): Mesh;
     /** Frees it; casters keep theirs. Does nothing the second time. */
