@@ -17,10 +17,13 @@ bool all_finite(const glm::dmat4& m) {
     return true;
 }
 
-// Matrices of hosts are single precision, mostly.
+// Matrices of hosts are single precision, mostly, and inverses of other matrices: these may end in
+// 1 but for a rounding.
 bool is_rigid(const glm::dmat4& m) {
     constexpr double slack = 1e-3;
-    if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0) return false;
+    constexpr double rounding = 1e-6;
+    if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0) return false;
+    if (std::abs(m[3][3] - 1.0) > rounding) return false;
     for (int a = 0; a < 3; ++a) {
         for (int b = a; b < 3; ++b) {
             const double product = glm::dot(glm::dvec3(m[a]), glm::dvec3(m[b]));
@@ -140,8 +143,11 @@ Result<HostView> view_of_host(const glm::dmat4& view_from_world, const glm::dmat
         negate_y(ours);
         negate_y(clip);
     }
-    return HostView{
+    // Drawn with is what the host has, to the bit.
+    HostView host{
         .view = {view, ours, kind}, .as_drawn = {view, clip, kind}, .conventions = conventions};
+    host.view.view_from_world[3][3] = 1.0;
+    return host;
 }
 
 }  // namespace gnomon::shadows

@@ -91,6 +91,22 @@ TEST(HostView, what_points_down_is_not_mirrored_when_it_is_drawn) {
     EXPECT_FALSE(is_mirrored(got->view));
 }
 
+TEST(HostView, an_inverse_that_ends_in_all_but_1_is_a_rotation_all_the_same) {
+    const HostConventions conventions{HostDepth::ZeroToOne, true};
+    const glm::dmat4 clip = infinite_perspective(0.8, 1.5, 0.1);
+    for (const double last : {1.0 - 0x1p-53, 1.0 + 0x1p-52, 1.0 - 0x1p-24, 1.0 + 0x1p-23}) {
+        glm::dmat4 inverse = view_matrix;
+        inverse[3][3] = last;
+        const auto got = view_of_host(inverse, clip, conventions);
+        ASSERT_TRUE(got) << got.error().message;
+        EXPECT_EQ(got->view.view_from_world[3][3], 1.0);
+        EXPECT_EQ(got->as_drawn.view_from_world[3][3], last) << "it is drawn as the host draws";
+    }
+    glm::dmat4 scaled = view_matrix;
+    scaled[3][3] = 1.001;
+    EXPECT_FALSE(view_of_host(scaled, clip, conventions));
+}
+
 TEST(HostView, an_epsilon_before_the_far_plane_is_no_far_plane) {
     const HostConventions conventions{HostDepth::MinusOneToOne, false};
     glm::dmat4 clip = in_the_hosts_way(infinite_perspective(0.8, 1.5, 0.1), conventions);

@@ -229,6 +229,7 @@ const refusals = [
     ["createShadows(device, {mask: 'bits'})", 'TypeError', /^createShadows\(\) knows no "mask": it takes masks, capBias, wasm\.$/],
     ["createShadows(device, {masks: 'bytes'})", 'RangeError', /^masks of createShadows\(\) is "bytes" instead of "bits" or "shares"\.$/],
     ['createShadows(device, {capBias: {constant: -1, slopeScale: 0}})', 'RangeError', /^capBias\.constant of createShadows\(\) is -1, /],
+    ['createShadows(device, {capBias: {constant: 0.5, slopeScale: 0}})', 'RangeError', /^capBias\.constant of createShadows\(\) is 0\.5 instead of a whole number\.$/],
     ['createShadows(device, {wasm: 7})', 'TypeError', /^wasm of createShadows\(\) is 7 instead of a URL/],
     ['featuresOf(device)', 'TypeError', /^featuresOf\(\) takes a GPUAdapter, not a GPUDevice\.$/],
     ['shadows.addMesh()', 'TypeError', /^addMesh\(\) takes an object, not undefined\.$/],
@@ -365,6 +366,41 @@ claim('its WebAssembly may come as bytes, and all of it may be in a worker', asy
     })(window.probe)`);
     assert.equal(fromBytes, true);
     assert.equal(inWorker, 'r32uint');
+}, probe);
+
+claim('what was handed over may change, and what was handed out stays', async visitor => {
+    const found = await inScene(visitor, `async ({probe, device, shadows, host, how, judged}) => {
+        const found = {};
+        // As three.js inverts a camera's pose: the last element is 1 but for a rounding.
+        const {view} = how;
+        how.view = Float64Array.from(view, (v, i) => i === 15 ? 1 - 2 ** -53 : v);
+        found.inverse = await judged();
+        how.view = view;
+        const position = [0, 3, 0];
+        const light = shadows.addLight({type: 'point', position});
+        position[0] = NaN;
+        light.set({range: 10});
+        // An encoder that comes again after another one.
+        const encoders = [device.createCommandEncoder(), device.createCommandEncoder()];
+        for (const encoder of encoders) shadows.render({...how, encoder});
+        try { shadows.render({...how, encoder: encoders[0]}); } catch (error) { found.again = error.message; }
+        const shares = await probe.createShadows(device, {masks: 'shares'});
+        const lamps = [0, 1, 2].map(x => shares.addLight({type: 'point', position: [x, 3, 0]}));
+        const {masks} = shares.render(how);
+        lamps[2].remove();
+        found.same = masks.every((mask, i) => mask === shares.render(how).masks[i]) && masks.length === 3;
+        lamps.push(shares.addLight({type: 'point', position: [2, 3, 0]}), shares.addLight({type: 'point', position: [3, 3, 0]}));
+        found.more = shares.render(how).masks.length;
+        found.kept = masks.length;
+        shares.dispose();
+        try { shares.render(how); } catch (error) { found.disposed = error.message; }
+        return found;
+    }`);
+    assert.equal(found.inverse, 0);
+    assert.match(found.again, /^This view is in that encoder already, /);
+    assert.ok(found.same, 'masks that were handed out are others after a light went');
+    assert.deepEqual([found.more, found.kept], [4, 3]);
+    assert.equal(found.disposed, 'These shadows were disposed of.');
 }, probe);
 
 claim('what its guides have a shader ask is WGSL', async visitor => {

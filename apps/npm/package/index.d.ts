@@ -34,7 +34,7 @@ export declare function featuresOf(adapter: GPUAdapter): GPUFeatureName[];
 
 /** How near caps are moved off the surfaces that they lie on; both at least 0. */
 export interface CapBias {
-    /** In the smallest steps of depth. */
+    /** In the smallest steps of depth; a whole number. */
     constant: number;
     /** In pixels along the surface. */
     slopeScale: number;
@@ -236,7 +236,8 @@ export interface Rendered {
 export declare class View {
     private constructor();
     /**
-     * Writes the masks. They stay the same textures while the depth's size does; gnomon's. Throws an Error ("unsupported") for
+     * Writes the masks. They stay the same textures while the depth's size does, and are gnomon's: for another size they are
+     * destroyed and others are there. Throws an Error ("unsupported") for
      * a camera that shadow volumes cannot be right in (a scaled view, an oblique near plane, depth that runs the other way than
      * `reversed` says), and an Error where the view is in that encoder already.
      */

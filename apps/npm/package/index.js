@@ -50,6 +50,7 @@ export async function createShadows(device, options = {}) {
     const bias = capBias === null ? {constant: 0, slopeScale: 0}
                                   : check.options(capBias, ['constant', 'slopeScale'], `capBias of ${place}`);
     check.number(bias.constant, `capBias.constant of ${place}`, {min: 0, max: 2 ** 20});
+    if (!Number.isInteger(bias.constant)) throw new RangeError(`capBias.constant of ${place} is ${bias.constant} instead of a whole number.`);
     check.number(bias.slopeScale, `capBias.slopeScale of ${place}`, {min: 0, max: 2 ** 20});
     for (const feature of requiredFeatures) {
         if (!device.features.has(feature)) {
@@ -281,7 +282,7 @@ class Light extends Numbered {
         check.number(range, 'range of a light', {min: 0});
         const s = directional ? -1 : 1;
         core.call('gnomon_set_light', number, s * x, s * y, s * z, directional ? 0 : 1, Number.isFinite(range) ? range : -1);
-        this.#is = is;
+        this.#is = {...is, [directional ? 'direction' : 'position']: [x, y, z]};  // the caller's array may change
     }
 
     remove() {
@@ -324,7 +325,7 @@ class View extends Numbered {
     #lights;  // bits that are given
     #views;   // all there are
     #target = null;
-    #encoder = null;  // the last one of the host's
+    #encoders = new WeakSet();  // of the host's: what is uploaded for one is there once
 
     constructor(core, bits, lights, views) {
         super(core, 0);
@@ -343,7 +344,7 @@ class View extends Numbered {
         check.encoder(encoder, 'encoder of render()');
         core.alive();
         const direct = depthOf(depth, check.boolean(keepStencil, 'keepStencil of render()'), this.#bits);
-        if (encoder && encoder === this.#encoder) {
+        if (encoder && this.#encoders.has(encoder)) {
             throw new Error('This view is in that encoder already, and what is uploaded for it is there once: submit it first, or ' +
                             'render another view (addView()).');
         }
@@ -359,24 +360,25 @@ class View extends Numbered {
             core.bridge.encoder = null;
         }
         if (!encoder) core.device.queue.submit([commands.finish()]);
-        this.#encoder = encoder;
+        if (encoder) this.#encoders.add(encoder);
         core.call('gnomon_stats');
         return {mask: this.mask, masks: this.masks, stats: core.named(statNames)};
     }
 
     get mask() { return this.#bits ? this.masks[0] ?? null : null; }
-    get masks() { return this.#target?.masks ?? []; }
+    get masks() { return [...this.#target?.masks ?? []]; }
 
     #targetFor(core, depth, direct, reversed) {
         const {width, height, sampleCount} = depth;
-        const count = this.#bits ? 1 : Math.max(1, ...[...this.#lights].map(bit => bit + 1));
         const t = this.#target;
+        // As many as there ever were lights: what the host has bound stays.
+        const count = this.#bits ? 1 : Math.max(1, t?.masks.length ?? 0, ...[...this.#lights].map(bit => bit + 1));
         if (t && t.width === width && t.height === height && t.sampleCount === sampleCount && t.reversed === reversed &&
             t.masks.length === count && t.direct === (direct ? depth : null)) {
             return t;
         }
         // A mask that fits stays the host's.
-        const kept = t && t.width === width && t.height === height ? t.masks.splice(0, count) : [];
+        const kept = t && t.width === width && t.height === height ? t.masks.splice(0) : [];
         this.#drop(core);
         const target = {width, height, sampleCount, reversed, direct: direct ? depth : null, masks: kept, number: null};
         target.copy = direct ? null : new DepthCopy(core.device, depth);
@@ -477,7 +479,10 @@ class Shadows {
         return new View(this.#core, this.#bits, this.#lights, this.#views);
     }
 
-    render(options) { return this.#first.render(options); }
+    render(options) {
+        this.#core.alive();
+        return this.#first.render(options);
+    }
 
     dispose() {
         for (const view of [...this.#views]) view.remove();
